@@ -1,0 +1,1 @@
+"""Elastic bodies, contact and bearings."""

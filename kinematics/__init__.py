@@ -1,0 +1,1 @@
+"""Exact kinematics and tooth profiles."""

@@ -1,0 +1,1 @@
+"""The drives: what each is made of."""
