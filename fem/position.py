@@ -1,0 +1,237 @@
+"""All contacts of a drive at one position, solved together.
+
+What comes in: pairs with their local laws, the tabulated compliances of the bodies they press, springs and loads on the motions.
+Newton runs over the local laws and the poses at once: at each step the laws are linearised, the gaps are taken afresh from the
+displaced curves, and the contact problem is solved exactly. *Level 0* has one force per contact; *strips* resolves the pressure of
+the touching contacts afterwards, on the same coupling.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from trochoid.fem import complementarity as lcp
+from trochoid.fem.compliance import Compliance, Weights
+from trochoid.fem.laws import HertzLine, Law
+from trochoid.fem.pair import Pair, State
+from trochoid.fem.strips import REACH, STRIPS, strip_centres, strip_compliance
+from trochoid.kinematics.errors import NotConverged
+from trochoid.kinematics.types import Array
+
+NEWTON = 40
+SETTLED = 1e-9  # change of forces and motions, relative to the largest
+PLACE = 1e-8  # m: contacts that moved less keep their coupling, which varies over millimetres
+FLOOR = 1e-9  # of the largest force: laws are linearised there at the least
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """Contacts of one kind.
+
+    `kernel` (c,) is the sum of 2/(πE') of both sides over the face width, `round_side` (c,) the smooth part in m/N of a side in closed form (a pin);
+    `law` None means Hertz line contact with the pair's radius, which *strips* can resolve.
+    """
+
+    name: str
+    pair: Pair
+    kernel: Array
+    round_side: Array
+    law: Law | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ElasticBody:
+    """A body as contacts see it: its compliance per unit thickness and its face width in m."""
+
+    compliance: Compliance
+    width: float
+
+
+@dataclass(frozen=True, slots=True)
+class Assembly:
+    """A drive at one position: families, bodies, springs (k, k) and loads (k,) on the motions.
+
+    `follow`: gaps and arms follow the displaced poses; the classical hand calculation keeps those of the nominal pose.
+    """
+
+    families: tuple[Family, ...]
+    bodies: tuple[ElasticBody, ...]
+    springs: Array
+    load: Array
+    follow: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """Result for one family: forces (c,) in N, half widths (c,) in m, `peak` line load per half width … pressures are per face width.
+
+    `peak` (c,) is the largest force per contact width in N/m; divided by the face width it is the pressure.
+    """
+
+    state: State
+    force: Array
+    half_width: Array
+    peak: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """Result at one position: touches by family name, motion (k,), tangent stiffness (k, k), residuals."""
+
+    touches: dict[str, Touch]
+    motion: Array
+    stiffness: Array
+    imbalance: float
+    penetration: float
+    iterations: int
+    solution: lcp.Solution
+
+
+def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | None = None) -> Contact:
+    """Solve all contacts at one position; `resolve` gives the pressed contacts strips of pressure.
+
+    Raises NotConverged.
+    """
+    forces, motion = _guess(assembly, start)
+    states = [f.pair.at(motion if assembly.follow else np.zeros_like(motion)) for f in assembly.families]
+    coupling = _coupling(assembly, states)
+    solution = None
+    for iteration in range(NEWTON):
+        problem = _linearised(assembly, states, coupling, forces, motion)
+        solution = lcp.solve(problem, solution)
+        new = [f[:, 0] for f in solution.forces]
+        size = max(float(np.abs(np.concatenate(new)).max(initial=0.0)), 1e-300)
+        change = max(float(np.abs(a - b).max(initial=0.0)) for a, b in zip(new, forces, strict=True)) / size
+        arms = _arms(states)
+        moved = float(np.abs(arms @ (solution.motion - motion)).max(initial=0.0)) if assembly.follow else 0.0
+        reach = float(np.abs(arms @ solution.motion).max(initial=0.0))
+        forces, motion = new, solution.motion
+        if change < SETTLED and moved <= SETTLED * reach:
+            break
+        if moved > 0.0:
+            states = [f.pair.at(motion, s.parameter) for f, s in zip(assembly.families, states, strict=True)]
+        if moved > PLACE:
+            coupling = _coupling(assembly, states)
+    else:
+        raise NotConverged(
+            f"contact: forces still change by {change:.1e} of the largest after {NEWTON} steps; "
+            "reduce the clearance or the load, or start from a neighbouring position"
+        )
+    if resolve:
+        return _resolved(assembly, states, coupling, forces, motion, iteration)
+    return _result(assembly, states, problem, solution, iteration + 1)
+
+
+def _guess(assembly: Assembly, start: Contact | None) -> tuple[list[Array], Array]:
+    if start is not None:
+        return [start.touches[f.name].force for f in assembly.families], start.motion
+    size = float(np.abs(assembly.load).max(initial=0.0))
+    return [np.full(len(f.kernel), size) for f in assembly.families], np.zeros(len(assembly.load))
+
+
+def _arms(states: Sequence[State]) -> Array:
+    return np.concatenate([s.arms for s in states])
+
+
+def _law(family: Family, state: State) -> Law:
+    return family.law if family.law is not None else HertzLine(family.kernel, state.radius)
+
+
+def _linearised(
+    assembly: Assembly, states: Sequence[State], coupling: Array, forces: Sequence[Array], motion: Array
+) -> lcp.Problem:
+    size = max((float(f.max(initial=0.0)) for f in forces), default=0.0) or 1.0
+    groups = []
+    for family, state, force in zip(assembly.families, states, forces, strict=True):
+        at = np.maximum(force, FLOOR * size)
+        approach, slope = _law(family, state).approach(at)
+        moved = state.arms @ motion if assembly.follow else 0.0
+        gap = state.gap + moved + approach - slope * at
+        groups.append(lcp.Group(slope[:, None, None], gap[:, None], state.arms[:, None, :]))
+    return lcp.Problem(tuple(groups), coupling, assembly.springs, assembly.load)
+
+
+def _coupling(assembly: Assembly, states: Sequence[State]) -> Array:
+    """Assemble the smooth compliance between all contacts: through each body, and of the round sides on the diagonal."""
+    counts = np.cumsum([0] + [len(s.gap) for s in states])
+    total = np.diag(np.concatenate([f.round_side for f in assembly.families]))
+    for number, body in enumerate(assembly.bodies):
+        on = [
+            (slice(counts[i], counts[i + 1]), s)
+            for i, (f, s) in enumerate(zip(assembly.families, states, strict=True))
+            if f.pair.seat is not None and f.pair.seat.body == number
+        ]
+        if on:
+            index = np.concatenate([np.arange(rows.start, rows.stop) for rows, _ in on])
+            total[np.ix_(index, index)] += _through(body, [s for _, s in on])
+    return total
+
+
+def _through(body: ElasticBody, states: Sequence[State]) -> Array:
+    place = Weights.joined([s.weights for s in states if s.weights is not None])
+    return body.compliance.between(place, np.concatenate([s.point for s in states])) / body.width
+
+
+def _result(
+    assembly: Assembly, states: Sequence[State], problem: lcp.Problem, solution: lcp.Solution, iterations: int
+) -> Contact:
+    touches = {}
+    for family, state, force in zip(assembly.families, states, solution.forces, strict=True):
+        total = force.sum(axis=1)
+        half = HertzLine(family.kernel, state.radius).half_width(total) if family.law is None else np.zeros_like(total)
+        peak = np.divide(2 * total, np.pi * half, out=np.zeros_like(total), where=half > 0)
+        touches[family.name] = Touch(state, total, half, peak)
+    return Contact(
+        touches,
+        solution.motion,
+        lcp.tangent(problem, solution),
+        solution.imbalance,
+        solution.penetration,
+        iterations,
+        solution,
+    )
+
+
+def _resolved(
+    assembly: Assembly,
+    states: Sequence[State],
+    coupling: Array,
+    forces: Sequence[Array],
+    motion: Array,
+    iterations: int,
+) -> Contact:
+    """Give every Hertz contact that may touch its strips; the others keep their linearised laws."""
+    groups = []
+    width = [np.zeros(0)] * len(states)
+    base = _linearised(assembly, states, coupling, forces, motion)
+    for i, (family, state, force) in enumerate(zip(assembly.families, states, forces, strict=True)):
+        if family.law is not None:
+            groups.append(base.groups[i])
+            continue
+        half = HertzLine(family.kernel, state.radius).half_width(np.maximum(force, 1e-6 * force.max(initial=1e-300)))
+        width[i] = 2 * REACH * half / STRIPS
+        offset = strip_centres() * (REACH * half)[:, None]
+        gap = family.pair.gap_along(state, motion, offset)
+        gap = gap + (state.arms @ motion)[:, None] if assembly.follow else gap
+        local = strip_compliance(family.kernel, width[i])
+        groups.append(lcp.Group(local, gap, np.repeat(state.arms[:, None, :], STRIPS, axis=1)))
+    problem = lcp.Problem(tuple(groups), coupling, assembly.springs, assembly.load)
+    solution = lcp.solve(problem)
+    contact = _result(assembly, states, problem, solution, iterations + 1)
+    touches = dict(contact.touches)
+    for i, family in enumerate(assembly.families):
+        if family.law is None:
+            strips = solution.forces[i]
+            pressed = (strips > 0).sum(axis=1)
+            touches[family.name] = Touch(
+                states[i],
+                strips.sum(axis=1),
+                0.5 * pressed * width[i],
+                strips.max(axis=1) / width[i],
+            )
+    return Contact(
+        touches, contact.motion, contact.stiffness, contact.imbalance, contact.penetration, iterations + 1, solution
+    )

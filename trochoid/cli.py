@@ -1,0 +1,183 @@
+"""The command line; what goes wrong ends in clear lines and exit code 1 (the job) or 2 (what was written)."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from trochoid import console
+from trochoid.kinematics.errors import SceneError, TrochoidError
+
+if TYPE_CHECKING:
+    from trochoid.scene import Scene
+
+FAILED, WRONG = 1, 2
+
+_SET = click.option(
+    "--set",
+    "overrides",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help="Replace one value of the scene: drive.pins=24. Repeatable.",
+)
+_ASK = click.option("--ask", metavar="Q1,Q2", help="Compute these quantities instead of those of the scene.")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line (sys.argv by default) and return its exit code; nothing but a code ever leaves."""
+    try:
+        with console.stoppable():
+            code = commands.main(
+                None if argv is None else list(argv), prog_name="trochoid", standalone_mode=False
+            )
+            sys.stdout.flush()
+            return code if isinstance(code, int) else 0
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except SceneError as error:
+        return _say(str(error), WRONG)
+    except TrochoidError as error:
+        return _say(f"trochoid: {error}", FAILED)
+    except (KeyboardInterrupt, click.Abort):
+        return _say("trochoid: interrupted; previous results are untouched", FAILED)
+    except BrokenPipeError:
+        console.forget_stdout()
+        return FAILED
+    except MemoryError:
+        return _say(
+            "trochoid: out of memory; ask for fewer positions, or set a larger accuracy.tolerance", FAILED
+        )
+    except Exception as error:
+        return _say(console.defect(error), FAILED)
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(package_name="trochoid", message="%(prog)s %(version)s")
+def commands() -> None:
+    """Eccentric and planetary gear drives: profiles, elastic contact, stiffness, reactions, vibration.
+
+    \b
+    trochoid new khv > scene.toml    start from a commented scene
+    trochoid check scene.toml        see what a run would do
+    trochoid run scene.toml          compute: tables, report.html, VTK files
+    """
+
+
+@commands.command()
+@click.argument("kind")
+def new(kind: str) -> None:
+    """Print a commented starter scene.
+
+    KIND is the kind of drive: khv (planetary-cycloid reducer).
+    """
+    from trochoid.scene import starter
+
+    click.echo(starter(kind), nl=False)
+
+
+@commands.command()
+@click.argument("scene")
+@_SET
+@_ASK
+def check(scene: str, overrides: tuple[str, ...], ask: str | None) -> None:
+    """Check SCENE and print the plan; solve nothing."""
+    loaded = _load(scene, overrides, ask)
+    from trochoid.run import plan
+
+    click.echo(_plan_text(scene, plan(loaded)))
+
+
+@commands.command()
+@click.argument("scene")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Where results go.  [default: out/NAME of the scene]",
+)
+@_SET
+@_ASK
+@click.option(
+    "--json",
+    "as_json",
+    is_flag=True,
+    help="Print results.json instead of tables; write files only with --out.",
+)
+def run(scene: str, out: Path | None, overrides: tuple[str, ...], ask: str | None, as_json: bool) -> None:
+    """Compute what SCENE asks for.
+
+    \b
+    trochoid run scene.toml --set drive.pins=24 --set "drive.pin_radius=0.2 in"
+    trochoid run scene.toml --ask ratio,mass --json
+    """
+    loaded = _load(scene, overrides, ask)
+    folder = None if as_json and out is None else out or Path("out") / (Path(scene).stem or "scene")
+    from trochoid import results
+    from trochoid.run import Run
+
+    if folder is not None:
+        results.prepare(folder)
+    with console.progress():
+        outcome = Run(loaded).outcome
+        files = () if folder is None else results.write(outcome, folder)
+    if as_json:
+        click.echo(results.to_json(outcome), nl=False)
+    else:
+        results.show(outcome, files)
+
+
+@commands.command()
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.option(
+    "--screenshot", type=click.Path(path_type=Path), metavar="FILE", help="Save a picture and open no window."
+)
+def view(folder: Path, screenshot: Path | None) -> None:
+    """Show the 3-D results of a run in DIR."""
+    from trochoid.view import view as show
+
+    show(folder, screenshot)
+
+
+def _load(path: str, overrides: Sequence[str], ask: str | None) -> Scene:
+    from trochoid.scene import Override, load
+
+    asked: list[str | Override] = []
+    if ask is not None:
+        names = [name.strip() for name in ask.split(",") if name.strip()]
+        asked = [Override(("ask", "quantities"), names, f"--ask {ask}")]
+    return load(path, [*overrides, *asked])
+
+
+def _plan_text(path: str, plan: Any) -> str:
+    """Return a plan as aligned lines: quantities, effects, the stages with their costs."""
+    rows = [("stage", "seconds", "MiB", "why")]
+    rows += [
+        (s.name, f"{s.seconds:.2g}", f"{s.memory_mib:.0f}", s.why) if s.needed else (s.name, "-", "-", s.why)
+        for s in plan.stages
+    ]
+    widths = [max(len(row[column]) for row in rows) for column in range(3)]
+    needed = [stage for stage in plan.stages if stage.needed]
+    total = sum(stage.seconds for stage in needed)
+    memory = max((stage.memory_mib for stage in needed), default=0.0)
+    lines = [
+        f"{path} is valid",
+        f"quantities  {', '.join(plan.quantities)}",
+        f"effects     {', '.join(plan.effects) or 'none'}",
+        "",
+        *(f"{a:<{widths[0]}}  {b:>{widths[1]}}  {c:>{widths[2]}}  {why}".rstrip() for a, b, c, why in rows),
+        "",
+        f"about {total:.2g} s and {memory:.0f} MiB",
+    ]
+    return "\n".join(lines)
+
+
+def _say(message: str, code: int) -> int:
+    with suppress(BrokenPipeError):
+        click.echo(message, err=True)
+    return code

@@ -1,0 +1,79 @@
+"""The program and its terminal: progress, signals, closed pipes, and errors that nobody foresaw."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+
+@contextmanager
+def progress() -> Iterator[None]:
+    """Show what the loggers under "trochoid" say on a terminal, one message at a time; a pipe stays quiet."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    import logging
+
+    from rich.console import Console
+    from rich.markup import escape
+
+    with Console(stderr=True).status("starting") as status:
+
+        class Shown(logging.Handler):
+            def emit(self, record: logging.LogRecord) -> None:
+                status.update(escape(record.getMessage()))
+
+        logger, handler = logging.getLogger("trochoid"), Shown(logging.INFO)
+        before = logger.level
+        logger.addHandler(handler)
+        logger.setLevel(logging.INFO)
+        try:
+            yield
+        finally:
+            logger.removeHandler(handler)
+            logger.setLevel(before)
+
+
+@contextmanager
+def stoppable() -> Iterator[None]:
+    """Let a termination signal end the program as Ctrl-C does, so that half-written results go away."""
+
+    def stop(number: int, frame: object) -> None:
+        raise KeyboardInterrupt
+
+    try:
+        before = signal.signal(signal.SIGTERM, stop)
+    except ValueError:  # not in the main thread
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def forget_stdout() -> None:
+    """Send what is left in the buffer nowhere: the interpreter would complain about the closed pipe."""
+    with suppress(OSError, ValueError):
+        null = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(null, sys.stdout.fileno())
+        os.close(null)
+
+
+def defect(error: Exception) -> str:
+    """Return what to say about an error that nobody foresaw; its traceback goes to a file."""
+    import tempfile
+    import traceback
+
+    text = f"trochoid: a defect of the program ({type(error).__name__}: {error})"
+    try:
+        with tempfile.NamedTemporaryFile(
+            "w", prefix="trochoid-", suffix=".txt", delete=False, encoding="utf-8"
+        ) as file:
+            traceback.print_exception(error, file=file)
+    except OSError:
+        return text
+    return f"{text}; please report it with {file.name}"

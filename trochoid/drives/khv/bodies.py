@@ -1,0 +1,56 @@
+"""The discs as elastic bodies: outline, mesh, factor and compliance of each distinct one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from trochoid.drives.khv.contact import plane
+from trochoid.drives.khv.design import Design
+from trochoid.fem.body import Body, build_body
+from trochoid.fem.compliance import press
+from trochoid.fem.position import ElasticBody
+from trochoid.geometry.disc import disc_outline
+from trochoid.geometry.mesh import Mesh, mesh_outline
+from trochoid.geometry.outline import Outline
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """All distinct discs on one mesh level."""
+
+    facets_per_lobe: int
+    meshes: tuple[Mesh, ...]
+    bodies: tuple[Body, ...]
+    elastic: tuple[ElasticBody, ...]
+
+
+def outlines(design: Design, facets_per_lobe: int) -> tuple[Outline, ...]:
+    """Return the outline of each distinct disc; the flank is the theoretical one, modifications are in the gaps."""
+    d = design.drive
+    return tuple(
+        disc_outline(
+            design.flank,
+            d.bore_radius,
+            d.output_pins.count,
+            d.output_pins.circle_radius,
+            design.hole_radius,
+            angle,
+            facets_per_lobe,
+        )
+        for angle in design.hole_angles
+    )
+
+
+def meshes(design: Design, facets_per_lobe: int) -> tuple[Mesh, ...]:
+    """Mesh each distinct disc."""
+    return tuple(mesh_outline(outline) for outline in outlines(design, facets_per_lobe))
+
+
+def build_level(design: Design, facets_per_lobe: int, made: tuple[Mesh, ...]) -> Level:
+    """Factor the discs and press them at every station."""
+    bodies = tuple(build_body(mesh, plane(design)) for mesh in made)
+    elastic = tuple(
+        ElasticBody(press(body, outline.loops), design.drive.face_width)
+        for body, outline in zip(bodies, outlines(design, facets_per_lobe), strict=True)
+    )
+    return Level(facets_per_lobe, made, bodies, elastic)

@@ -1,0 +1,217 @@
+"""All contacts of the drive over the input angle: ring pins, output rollers in their holes, rollers of the eccentric bearing.
+
+Motions: x, y, rotation of each disc; rotation of the output flange; with compliant bearings also x, y and tilt of shaft and flange.
+Contacts are solved in the frame of the ring.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from trochoid.drives.khv.design import Design, Disc, circle
+from trochoid.fem.bearing import EXPONENT, iso16281_constant
+from trochoid.fem.laws import HertzLine, Law, LinearSpring, PowerLaw
+from trochoid.fem.material import Material, Plane
+from trochoid.fem.pair import FlankPair, HolePair, Member, Seat
+from trochoid.fem.position import Assembly, ElasticBody, Family
+from trochoid.kinematics.types import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The motions of a scene by name, and for each member the rows that turn them into its x, y, rotation."""
+
+    names: tuple[str, ...]
+    lateral: bool
+    floating: bool
+
+    def rows(self, member: str, z: float = 0.0) -> Array:
+        """Return (3, k): x, y and rotation of a member's centre at the axial place z per unit motion."""
+        rows = np.zeros((3, len(self.names)))
+        for i, motion in enumerate(("x", "y", "rotation")):
+            if f"{member}.{motion}" in self.names:
+                rows[i, self.names.index(f"{member}.{motion}")] = 1.0
+        for i, (motion, sign) in enumerate((("tilt_y", 1.0), ("tilt_x", -1.0))):
+            if f"{member}.{motion}" in self.names:
+                rows[i, self.names.index(f"{member}.{motion}")] = sign * z
+        return rows
+
+
+def layout(design: Design, rung: str) -> Layout:
+    """Choose the motions: the classical calculation (rigid disc, rigid bearing) has rotations only."""
+    floating = design.scene.has("bearing_compliance")
+    lateral = floating or rung != "springs"
+    disc = ("x", "y", "rotation") if lateral else ("rotation",)
+    names = [f"disc{i}.{m}" for i in range(len(design.discs)) for m in disc] + ["output.rotation"]
+    if floating:
+        names += [f"{member}.{m}" for member in ("shaft", "output") for m in ("x", "y", "tilt_x", "tilt_y")]
+    return Layout(tuple(names), lateral, floating)
+
+
+def material(design: Design) -> Material:
+    """Return the material of discs, pins and rollers."""
+    given = design.scene.materials[design.drive.material]
+    return Material(given.youngs_modulus, given.poissons_ratio, given.density)
+
+
+def plane(design: Design) -> Plane:
+    """Return the plane moduli of discs, pins and rollers."""
+    return material(design).plane(design.drive.plane)
+
+
+def assembly(design: Design, rung: str, bodies: tuple[ElasticBody, ...], crank: float) -> Assembly:
+    """Return the contact problem at a crank angle (rad) relative to the ring; `bodies` is empty for rigid discs."""
+    motions = layout(design, rung)
+    families: list[Family] = []
+    for i, disc in enumerate(design.discs):
+        angle = crank + disc.crank
+        center = design.flank.eccentricity * np.array([np.cos(angle), np.sin(angle)])
+        turn = -angle / design.flank.lobes + disc.lead
+        member = Member(center, turn, motions.rows(f"disc{i}"))
+        body = bodies[disc.body] if bodies else None
+        families += _ring(design, motions, disc, i, member, body, angle)
+        families += _output(design, motions, disc, i, member, body, crank)
+        if motions.lateral:
+            families += _bearing(design, motions, disc, i, member, body, crank)
+    return Assembly(
+        tuple(families), tuple(bodies[x.body] for x in design.discs) if bodies else (), springs(design, motions), loads(design, motions, crank), follow=rung != "springs"
+    )
+
+
+def springs(design: Design, motions: Layout) -> Array:
+    """Return what shaft and flange rest on: their two bearings each, N/m and N·m/rad."""
+    total = np.zeros((len(motions.names),) * 2)
+    if motions.floating:
+        for member, table in (("shaft", design.drive.input_shaft), ("output", design.drive.output_flange)):
+            for z in table.bearing_positions:
+                at = motions.rows(member, z)[:2]
+                total += table.bearing_stiffness * at.T @ at
+    return total
+
+
+def loads(design: Design, motions: Layout, crank: float) -> Array:
+    """Return the loads on the motions: the load torque, and the centrifugal force of each disc when inertia is in the scene."""
+    load = np.zeros(len(motions.names))
+    load[motions.names.index("output.rotation")] = design.flange_torque
+    if motions.lateral:
+        for i, force in enumerate(centrifugal(design, np.array([crank]))[0]):
+            load += motions.rows(f"disc{i}")[:2].T @ force
+    return load
+
+
+def centrifugal(design: Design, crank: Array) -> Array:
+    """Return the inertia forces (n, discs, 2) of the discs at crank angles (n,); zero when the scene leaves inertia out."""
+    angle = crank[:, None] + np.array([d.crank for d in design.discs])
+    size = design.flank.eccentricity * design.crank_speed**2 * design.eccentric_mass
+    return size * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def _ring(
+    design: Design, motions: Layout, disc: Disc, i: int, member: Member, body: ElasticBody | None, angle: float
+) -> list[Family]:
+    flank, count = design.flank, design.flank.pins
+    pins = circle(flank.pin_circle_radius, count)
+    ring = Member(np.zeros(2), 0.0, np.zeros((3, len(motions.names))))
+    start = flank.contact_parameter(np.arange(count), angle) - disc.lead
+    seat = _seat(body, i, ["flank"] * count)
+    pair = FlankPair(
+        member, ring, flank, design.modification, design.pin_play, pins, start, design.arc, seat, classical=body is None
+    )
+    kernel, side = _round(design, count, flank.pin_radius, design.drive.face_width)
+    return [Family(f"ring{i}", pair, kernel, side, _classical(design, body))]
+
+
+def _output(
+    design: Design, motions: Layout, disc: Disc, i: int, member: Member, body: ElasticBody | None, crank: float
+) -> list[Family]:
+    pins = design.drive.output_pins
+    start = design.drive.output_pins.phase
+    flange = Member(np.zeros(2), -crank / design.flank.lobes, motions.rows("output", disc.z))
+    hole = (np.arange(pins.count) + disc.first_hole) % pins.count
+    holes = circle(pins.circle_radius, pins.count, design.hole_angles[disc.body])[hole]
+    rollers = circle(pins.circle_radius, pins.count, start)
+    seat = _seat(body, i, [f"hole{j}" for j in hole])
+    pair = HolePair(member, flange, holes, design.hole_radius, rollers, pins.roller_radius, seat)
+    kernel, side = _round(design, pins.count, pins.roller_radius, design.drive.face_width)
+    return [Family(f"output{i}", pair, kernel, side, _classical(design, body))]
+
+
+def _bearing(
+    design: Design, motions: Layout, disc: Disc, i: int, member: Member, body: ElasticBody | None, crank: float
+) -> list[Family]:
+    bearing = design.drive.eccentric_bearing
+    count = bearing.rollers
+    cage = Member(member.center, design.cage_angle(crank) , motions.rows("shaft", disc.z))
+    seat = _seat(body, i, ["bore"] * count)
+    rollers = circle(design.pitch_radius, count)
+    pair = HolePair(
+        member, cage, np.zeros((count, 2)), design.drive.bore_radius, rollers, bearing.roller_radius, seat
+    )
+    one = plane(design).kernel / bearing.roller_length
+    if not motions.floating:  # rigid rollers on a rigid eccentric: the seat's own Hertz contact is left
+        return [Family(f"bearing{i}", pair, np.full(count, one), np.zeros(count))]
+    law = PowerLaw(iso16281_constant(bearing.roller_length), EXPONENT)
+    side = np.full(count, 0.0 if body is None else _seat_for_seat(design, law, one))
+    return [Family(f"bearing{i}", pair, np.full(count, one), side, law)]
+
+
+def _seat_for_seat(design: Design, law: PowerLaw, one: float) -> float:
+    """Return what turns the seat that ISO/TS 16281 contains into none, plus the real seat's own logarithm, in m/N.
+
+    The standard's line contact comprises both raceways in thick bodies. Its outer seat is what is left of it after Hertz's closed forms
+    for the roller (both halves) and the eccentric; the seat computed by finite elements takes its place. Evaluated at the mean
+    load of a loaded roller.
+    """
+    bearing = design.drive.eccentric_bearing
+    load = np.array([nominal_roller_load(design)])
+    r, inner, outer = bearing.roller_radius, design.race_radius, design.drive.bore_radius
+    out = HertzLine(np.array([2 * one]), np.array([1 / (1 / r - 1 / outer)])).half_width(load)[0]
+    into = HertzLine(np.array([2 * one]), np.array([1 / (1 / r + 1 / inner)])).half_width(load)[0]
+    logs = np.log(4 * r / out) + np.log(4 * r / into) + np.log(4 * inner / into) - 1.5
+    standard = law.approach(load)[0][0] / load[0] - one * logs
+    return float(one * (np.log(2 / out) + 0.5) - standard)
+
+
+def nominal_roller_load(design: Design) -> float:
+    """Return a typical load of a loaded roller in N: Stribeck's 4/Z of a bearing force √2·T/(e z_c) per disc."""
+    torque = max(design.flange_torque, 1e-3) / len(design.discs)
+    force = np.sqrt(2) * torque / (design.flank.eccentricity * design.flank.lobes)
+    return float(4 * force / design.drive.eccentric_bearing.rollers)
+
+
+def _round(design: Design, count: int, radius: float, width: float) -> tuple[Array, Array]:
+    """Return kernel and smooth part of contacts between the disc and round pins that are held on their far side.
+
+    Half of a cylinder pressed between two contacts (Johnson, Contact Mechanics, 5.57): (2/πE')(ln(4r/a) − ½) per unit line load.
+    """
+    one = plane(design).kernel / width
+    if not design.scene.has("pin_compliance"):
+        return np.full(count, one), np.zeros(count)
+    return np.full(count, 2 * one), np.full(count, one * (np.log(2 * radius) - 1))
+
+
+def _classical(design: Design, body: ElasticBody | None) -> Law | None:
+    """Return the spring of the classical calculation for a rigid disc; None leaves Hertz's law."""
+    return LinearSpring(contact_stiffness(design)) if body is None else None
+
+
+def contact_stiffness(design: Design) -> float:
+    """Return the stiffness of one contact in N/m: given, or Hertz's at the largest pin force of the classical calculation."""
+    d = design.drive
+    if d.contact_stiffness is not None:
+        return d.contact_stiffness
+    torque = max(design.flange_torque, 1e-3) / len(design.discs)
+    force = 4 * torque / (design.flank.trochoid_ratio * d.pin_circle_radius * design.flank.lobes)
+    kernel = np.array([2 * plane(design).kernel / d.face_width])
+    approach, _ = HertzLine(kernel, np.array([d.pin_radius])).approach(np.array([force]))
+    # the logarithm counts from a depth of one pin diameter in both bodies
+    return float(force / (approach[0] + kernel[0] * force * np.log(2 * d.pin_radius)))
+
+
+def _seat(body: ElasticBody | None, i: int, names: Sequence[str]) -> Seat | None:
+    if body is None:
+        return None
+    return Seat.on(i, [body.compliance.surfaces[name] for name in names])

@@ -1,0 +1,158 @@
+"""What a planetary-cycloid K-H-V drive is made of: profile, discs, places of all members. No solver, no mesh."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+
+from trochoid.kinematics.curve import ArcLength
+from trochoid.kinematics.cycloid import Cycloid, Modification
+from trochoid.kinematics.train import Speeds, khv_train, speeds
+from trochoid.kinematics.types import Array
+from trochoid.scene import Scene
+from trochoid.scene.drive_khv import KhvDrive
+
+
+@dataclass(frozen=True, slots=True)
+class Disc:
+    """One disc in the pack: which body it is made from, and how that body sits.
+
+    `lead` of the body's frame on the profile frame (whole lobes, rad), `first_hole` that roller 0 finds, axial place `z` in m, `crank`
+    angle ahead of disc 0.
+    """
+
+    body: int
+    lead: float
+    first_hole: int
+    z: float
+    crank: float
+
+
+@dataclass(frozen=True)
+class Design:
+    """The drive as the wings see it, in SI.
+
+    `modification` and the plays are zero unless the scene lists the effect "clearance"; `hole_angles` of each distinct body.
+    """
+
+    scene: Scene
+    flank: Cycloid
+    modification: Modification
+    pin_play: float
+    hole_radius: float
+    bearing_play: float
+    discs: tuple[Disc, ...]
+    hole_angles: tuple[float, ...]
+    speeds: Speeds
+
+    @property
+    def drive(self) -> KhvDrive:
+        """The scene's [drive] table."""
+        return self.scene.drive
+
+    @cached_property
+    def arc(self) -> ArcLength:
+        """Arc length along the flank."""
+        return ArcLength(self.flank)
+
+    @cached_property
+    def eccentric_mass(self) -> float:
+        """Mass of one disc in kg when inertia is in the scene, else 0."""
+        from trochoid.drives.khv.mass import disc_solid
+
+        return disc_solid(self).mass if self.scene.has("inertia") else 0.0
+
+    @property
+    def crank_speed(self) -> float:
+        """Speed of the eccentric in the fixed frame, rad/s."""
+        return self.scene.operation.input_speed
+
+    @property
+    def mesh_speed(self) -> float:
+        """Crank angle relative to the ring per unit of input angle."""
+        return float(self.speeds.relative("input", "ring"))
+
+    @property
+    def flange_torque(self) -> float:
+        """Torque on the flange in N·m: the output torque, less the input's when the ring is driven."""
+        torque = self.scene.operation.output_torque
+        return torque if self.drive.fixed == "ring" else torque * self.flank.lobes / self.flank.pins
+
+    @property
+    def pitch_radius(self) -> float:
+        """Radius of the circle of the eccentric bearing's roller centres, m."""
+        bearing = self.drive.eccentric_bearing
+        return self.drive.bore_radius - bearing.roller_radius - self.bearing_play
+
+    @property
+    def race_radius(self) -> float:
+        """Radius of the eccentric's raceway, m."""
+        return self.pitch_radius - self.drive.eccentric_bearing.roller_radius
+
+    def cage_angle(self, crank: float) -> float:
+        """Angle of the eccentric bearing's cage at a crank angle relative to the ring: its rollers roll on both raceways."""
+        outer, inner = self.drive.bore_radius, self.race_radius
+        return crank * (inner - outer / self.flank.lobes) / (inner + outer)
+
+
+def design(scene: Scene) -> Design:
+    """Read the drive from a scene; nothing is checked here but what no later stage could name."""
+    d = scene.drive
+    flank = Cycloid(d.pins, d.lobes, d.pin_circle_radius, d.pin_radius, d.eccentricity)
+    loose = scene.has("clearance")
+    m = d.modification
+    train = speeds(khv_train(d.pins, d.lobes), d.fixed, "input", "output" if d.fixed == "ring" else "ring")
+    discs, angles = _pack(d, flank)
+    return Design(
+        scene,
+        flank,
+        Modification(m.equidistant, m.radial, m.rotation) if loose else Modification(),
+        d.pin_clearance if loose else 0.0,
+        d.output_pins.roller_radius + d.eccentricity + (d.output_pins.hole_clearance if loose else 0.0),
+        d.eccentric_bearing.clearance if loose else 0.0,
+        discs,
+        angles,
+        train,
+    )
+
+
+def _pack(drive: KhvDrive, flank: Cycloid) -> tuple[tuple[Disc, ...], tuple[float, ...]]:
+    """Place the discs; those that are the same body turned by whole lobes and holes share it.
+
+    Disc i runs i/n of a turn ahead, so its holes lead its profile by i/(n z_c) of a turn. It is disc 0 turned if that is a whole
+    number of lobes plus a whole number of holes: for n | z_p and n | z_w always (sources §3), and in more cases.
+    """
+    holes, lobes, count = drive.output_pins.count, flank.lobes, drive.discs
+    pitch = drive.face_width + drive.disc_gap
+    bodies: list[Fraction] = []
+    discs = []
+    for i in range(count):
+        lead = Fraction(i, count * lobes)
+        z = (i - 0.5 * (count - 1)) * pitch
+        crank = 2 * math.pi * i / count
+        match = _same_body(bodies, lead, lobes, holes)
+        if match is None:
+            bodies.append(lead)
+            match = len(bodies) - 1, 0, 0
+        body, turned, first = match
+        discs.append(Disc(body, 2 * math.pi * turned / lobes, first, z, crank))
+    return tuple(discs), tuple(drive.output_pins.phase + 2 * math.pi * float(b) for b in bodies)
+
+
+def _same_body(bodies: list[Fraction], lead: Fraction, lobes: int, holes: int) -> tuple[int, int, int] | None:
+    for number, own in enumerate(bodies):
+        for turned in range(lobes):
+            first = (lead - own - Fraction(turned, lobes)) * holes
+            if first.denominator == 1:
+                return number, turned, int(first) % holes
+    return None
+
+
+def circle(radius: float, count: int, start: float = 0.0) -> Array:
+    """Return `count` equally spaced points (count, 2) of a circle about the origin."""
+    angle = start + 2 * np.pi * np.arange(count) / count
+    return radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)

@@ -1,0 +1,145 @@
+"""The drive's contacts over one turn of the input."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from trochoid.drives.khv.contact import assembly, layout
+from trochoid.drives.khv.design import Design
+from trochoid.fem.position import Contact, ElasticBody, solve_position
+from trochoid.kinematics.errors import NotConverged
+from trochoid.kinematics.types import Array, frozen
+
+FAMILIES = ("ring", "output", "bearing")
+
+
+@dataclass(frozen=True, slots=True)
+class Touches:
+    """Contacts of one kind over n positions, d discs, c contacts each.
+
+    `force` (n, d, c) N, `pressure` (n, d, c) Pa, `half_width` (n, d, c) m, `point` and `normal` (n, d, c, 2) in the ring's frame, the normal out of
+    the disc.
+    """
+
+    force: Array
+    pressure: Array
+    half_width: Array
+    point: Array
+    normal: Array
+
+    @property
+    def resultant(self) -> Array:
+        """Force (n, d, 2) of the discs on what they touch, N."""
+        return np.asarray(np.einsum("ndc,ndci->ndi", self.force, self.normal))
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Contacts over the input angle (n,) in rad; the last position is a full turn after the first.
+
+    `crank` (n,) angle relative to the ring, `motion` (n, k) and `stiffness` (n, k, k) on `names`; `imbalance` and `penetration` are the
+    largest relative residuals, `iterations` the most Newton steps.
+    """
+
+    rung: str
+    angle: Array
+    crank: Array
+    names: tuple[str, ...]
+    ring: Touches
+    output: Touches
+    bearing: Touches | None
+    motion: Array
+    stiffness: Array
+    imbalance: float
+    penetration: float
+    iterations: int
+
+    @property
+    def twist(self) -> Array:
+        """Rotation (n,) of the flange beyond its ideal angle, rad."""
+        return np.asarray(self.motion[:, self.names.index("output.rotation")])
+
+    @property
+    def torsional_stiffness(self) -> Array:
+        """Torque per rotation (n,) at the flange with the input held, N·m/rad; 0 where nothing resists."""
+        row = self.names.index("output.rotation")
+        unit = np.zeros(len(self.names))
+        unit[row] = 1.0
+        result = np.zeros(len(self.angle))
+        for i, k in enumerate(self.stiffness):
+            size = np.sqrt(np.maximum(np.diag(k), 0.0))
+            if size[row] == 0.0:
+                continue
+            scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0)
+            answer, *_ = np.linalg.lstsq(k * np.outer(scale, scale), unit * scale, rcond=1e-12)
+            result[i] = 1 / float(answer[row] * scale[row])
+        return result
+
+
+def solve_series(
+    design: Design,
+    rung: str,
+    bodies: tuple[ElasticBody, ...],
+    positions: int,
+    progress: Callable[[int], None] = lambda done: None,
+) -> Series:
+    """Solve every position of one input turn, both ends included, each started from the last.
+
+    Raises NotConverged with the position.
+    """
+    angle = np.linspace(0.0, 2 * np.pi, positions + 1)
+    contacts: list[Contact] = []
+    for i, place in enumerate(angle):
+        contacts.append(solve_at(design, rung, bodies, float(place), contacts[-1] if contacts else None))
+        progress(i + 1)
+    return _gathered(design, rung, angle, contacts)
+
+
+def solve_at(
+    design: Design, rung: str, bodies: tuple[ElasticBody, ...], angle: float, start: Contact | None = None
+) -> Contact:
+    """Solve one position at an input angle in rad."""
+    problem = assembly(design, rung, bodies, angle * design.mesh_speed)
+    try:
+        return solve_position(problem, resolve=rung == "strips", start=start)
+    except NotConverged as fault:
+        raise NotConverged(f"at input angle {np.degrees(angle):.6g}°: {fault}") from fault
+
+
+def _gathered(design: Design, rung: str, angle: Array, contacts: list[Contact]) -> Series:
+    count = len(design.discs)
+    width = {"ring": design.drive.face_width, "output": design.drive.face_width}
+    width["bearing"] = design.drive.eccentric_bearing.roller_length
+    kinds = {
+        kind: _touches(contacts, [f"{kind}{i}" for i in range(count)], width[kind])
+        for kind in FAMILIES
+        if f"{kind}0" in contacts[0].touches
+    }
+    return Series(
+        rung,
+        frozen(angle),
+        frozen(angle * design.mesh_speed),
+        layout(design, rung).names,
+        kinds["ring"],
+        kinds["output"],
+        kinds.get("bearing"),
+        frozen([c.motion for c in contacts]),
+        frozen([c.stiffness for c in contacts]),
+        max(c.imbalance for c in contacts),
+        max(c.penetration for c in contacts),
+        max(c.iterations for c in contacts),
+    )
+
+
+def _touches(contacts: list[Contact], names: list[str], width: float) -> Touches:
+    grid = [[contact.touches[name] for name in names] for contact in contacts]
+    return Touches(
+        frozen([[t.force for t in row] for row in grid]),
+        frozen(np.array([[t.peak for t in row] for row in grid]) / width),
+        frozen([[t.half_width for t in row] for row in grid]),
+        frozen([[t.state.point for t in row] for row in grid]),
+        frozen([[t.state.normal for t in row] for row in grid]),
+    )

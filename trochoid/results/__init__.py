@@ -1,0 +1,35 @@
+"""What a run found: as values, as files, on the terminal."""
+
+from trochoid.results.document import to_json
+from trochoid.results.folder import prepare
+from trochoid.results.outcome import (
+    Arrow,
+    Check,
+    Drawing,
+    DrawingFrame,
+    Field,
+    Line,
+    Outcome,
+    Parts,
+    Quantity,
+    Stage,
+)
+from trochoid.results.terminal import show
+from trochoid.results.write import write
+
+__all__ = [
+    "Arrow",
+    "Check",
+    "Drawing",
+    "DrawingFrame",
+    "Field",
+    "Line",
+    "Outcome",
+    "Parts",
+    "Quantity",
+    "Stage",
+    "prepare",
+    "show",
+    "to_json",
+    "write",
+]

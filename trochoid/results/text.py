@@ -1,0 +1,114 @@
+"""Numbers, errors and units as an engineer reads them; shared by the terminal and the report."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from trochoid.results.outcome import Quantity
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_SYMBOLS = {"um": "µm", "deg": "°", "dimensionless": "", "1": "", "percent": "%"}
+_PLAIN = {
+    "·": "*",
+    "µ": "u",
+    "²": "^2",
+    "³": "^3",
+    "⁴": "^4",
+    "°": "deg",
+    "±": "+/-",
+    "−": "-",
+    "×10": "e",
+    "\u202f": "",
+}
+_MINUS = "−"
+
+
+def pretty_unit(unit: str) -> str:
+    """Return `unit` ("N*m/arcmin", "kg*m**2", "um") with its usual signs ("N·m/arcmin", "kg·m²", "µm")."""
+    spaced = re.sub(r"(\*\*|\^)(-?\d+)", lambda m: m.group(2).translate(_SUPERSCRIPTS), unit.strip())
+    return "".join(_SYMBOLS.get(word, word) for word in re.split(r"([*/ ])", spaced)).replace("*", "·")
+
+
+def label(name: str) -> str:
+    """Return the heading of a name: "mass" → "Mass", "stress_max" → "Largest stress"."""
+    words = name.replace("_", " ").strip()
+    words = f"largest {words[:-4]}" if words.endswith(" max") else words
+    return words[:1].upper() + words[1:]
+
+
+def number(value: float | str | None, digits: int = 5) -> str:
+    """Return `value` with `digits` significant digits, a proper minus, powers of ten outside 1e-4 … 1e6."""
+    if value is None:
+        return "none"
+    if isinstance(value, (str, bool)):
+        return str(value)
+    if not math.isfinite(value):
+        return "not finite"
+    if value == int(value) and abs(value) < 10**6:
+        return _signed(f"{int(value)}")
+    exponent = math.floor(math.log10(abs(value)))
+    if -4 <= exponent < 6:
+        return _signed(_stripped(f"{value:.{max(0, digits - 1 - exponent)}f}"))
+    return _signed(_power(*f"{value:.{digits - 1}e}".split("e")))
+
+
+def value_and_error(value: float | str | None, error: float | None) -> tuple[str, str]:
+    """Return value and error to the same last digit, two digits of the error; "" where there is none."""
+    if (
+        value is None
+        or isinstance(value, str)
+        or error is None
+        or not math.isfinite(value)
+        or not math.isfinite(error)
+    ):
+        return number(value), ""
+    if error <= 0.0:
+        return number(value), ""
+    size = max(abs(value), error)
+    exponent = math.floor(math.log10(size))
+    scale = exponent if not -4 <= exponent < 6 else 0
+    last = max(math.floor(math.log10(error)) - 1, exponent - 9) - scale
+    decimals = max(0, -last)
+    shown, margin = f"{value / 10.0**scale:.{decimals}f}", f"{error / 10.0**scale:.{decimals}f}"
+    if float(margin) == 0.0:
+        return _signed(shown), ""
+    return (
+        (_signed(_power(shown, str(scale))), _power(margin, str(scale)))
+        if scale
+        else (_signed(shown), margin)
+    )
+
+
+def sentence(quantity: Quantity) -> str:
+    """Return "101.3 ± 0.4 N·m/arcmin"."""
+    value, error = value_and_error(quantity.value, quantity.error)
+    unit = pretty_unit(quantity.unit)
+    gap = "" if unit in ("°", "%", "") else " "
+    if error:
+        return f"{value} ± {error}{' ' if unit else ''}{unit}"
+    return f"{value}{gap}{unit}"
+
+
+def plain(text: str) -> str:
+    """Return `text` in ASCII, for a stream that can show no more."""
+    raised = re.sub(r"×10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda m: f"e{_lowered(m.group(1))}", text)
+    for sign, letters in _PLAIN.items():
+        raised = raised.replace(sign, letters)
+    return raised.encode("ascii", "replace").decode("ascii")
+
+
+def _lowered(digits: str) -> str:
+    return digits.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+
+
+def _power(mantissa: str, exponent: str) -> str:
+    return f"{_stripped(mantissa)}×10{str(int(exponent)).translate(_SUPERSCRIPTS)}"
+
+
+def _stripped(digits: str) -> str:
+    return digits.rstrip("0").rstrip(".") if "." in digits else digits
+
+
+def _signed(digits: str) -> str:
+    return digits.replace("-", _MINUS)

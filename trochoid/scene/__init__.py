@@ -1,0 +1,48 @@
+"""The scene: what a user writes, checked and in SI."""
+
+from trochoid.scene.ask import Accuracy, Ask
+from trochoid.scene.casing import Casing, MeasuringPoint, Mount
+from trochoid.scene.drive_khv import (
+    EccentricBearing,
+    InputShaft,
+    KhvDrive,
+    Modification,
+    OutputFlange,
+    OutputPins,
+    Ring,
+)
+from trochoid.scene.effects import EFFECTS, Effect
+from trochoid.scene.load import load, read
+from trochoid.scene.materials import Material
+from trochoid.scene.model import Scene
+from trochoid.scene.needs import KINDS, NEEDS, QUANTITIES
+from trochoid.scene.operation import Operation
+from trochoid.scene.overrides import Override
+from trochoid.scene.starter import starter
+
+__all__ = [
+    "EFFECTS",
+    "KINDS",
+    "NEEDS",
+    "QUANTITIES",
+    "Accuracy",
+    "Ask",
+    "Casing",
+    "EccentricBearing",
+    "Effect",
+    "InputShaft",
+    "KhvDrive",
+    "Material",
+    "MeasuringPoint",
+    "Modification",
+    "Mount",
+    "Operation",
+    "OutputFlange",
+    "OutputPins",
+    "Override",
+    "Ring",
+    "Scene",
+    "load",
+    "read",
+    "starter",
+]

@@ -1,0 +1,143 @@
+"""What tables of a scene demand of each other, found in the raw scene: single wrong fields do not hide it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, TypeAlias
+
+from trochoid.faults import Key, listed, meant, nearest, quoted, shown
+from trochoid.scene.effects import EFFECTS
+from trochoid.scene.materials import PREDEFINED
+from trochoid.scene.needs import AT_POINTS, KINDS, NEEDS, NOT_WITH_SPRINGS, QUANTITIES
+
+Found: TypeAlias = tuple[Key, str]
+
+
+def faults(raw: Mapping[str, Any]) -> Iterator[Found]:
+    """Yield (key, message) for every demand that is not met; wrong types are left to the field checks."""
+    drive = _table(raw, "drive")
+    effects = _effects(raw)
+    yield from _material(drive, _table(raw, "materials"))
+    yield from _twice("effects", [(("effects", i, "type"), name) for i, name in effects])
+    yield from _mounts(raw, effects)
+    yield from _points(_table(raw, "casing"))
+    kind = drive.get("type")
+    if isinstance(kind, str) and kind in KINDS:
+        yield from _quantities(raw, kind, {name for _, name in effects} | _probable_effects(raw))
+
+
+def kind_faults(raw: Mapping[str, Any]) -> Iterator[Found]:
+    """Yield a fault if the kind of drive is missing or unknown: its other faults mean nothing then."""
+    drive = raw.get("drive")
+    if not isinstance(drive, Mapping):
+        return
+    if "type" not in drive:
+        yield ("drive", "type"), f"missing; need the kind of drive: {listed(KINDS)}"
+    elif not isinstance(drive["type"], str) or drive["type"] not in KINDS:
+        yield ("drive", "type"), f"given {shown(drive['type'])}; this version knows {listed(KINDS)}"
+
+
+def _table(raw: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    table = raw.get(name)
+    return table if isinstance(table, Mapping) else {}
+
+
+def _items(table: Mapping[str, Any], name: str) -> Sequence[Any]:
+    items = table.get(name)
+    return items if isinstance(items, list) else []
+
+
+def _effects(raw: Mapping[str, Any]) -> list[tuple[int, str]]:
+    """Return (index, type) of the effects whose type is known."""
+    typed = [
+        (i, effect.get("type"))
+        for i, effect in enumerate(_items(raw, "effects"))
+        if isinstance(effect, Mapping)
+    ]
+    return [(i, name) for i, name in typed if isinstance(name, str) and name in EFFECTS]
+
+
+def _probable_effects(raw: Mapping[str, Any]) -> set[str]:
+    """Return what misspelt effects were meant to be: that fault is named once, not by every quantity too."""
+    names = [effect.get("type") for effect in _items(raw, "effects") if isinstance(effect, Mapping)]
+    return {near for name in names if isinstance(name, str) and (near := nearest(name, EFFECTS))}
+
+
+def _material(drive: Mapping[str, Any], materials: Mapping[str, Any]) -> Iterator[Found]:
+    name = drive.get("material", "steel")
+    known = sorted({*PREDEFINED, *materials})
+    if isinstance(name, str) and name not in known:
+        yield (
+            ("drive", "material"),
+            f"no material {quoted(name)}; {meant(name, known)} Or add the table [materials.{name}]",
+        )
+
+
+def _twice(what: str, named: Sequence[tuple[Key, str]]) -> Iterator[Found]:
+    seen: set[str] = set()
+    for key, name in named:
+        if name in seen:
+            yield key, f"{quoted(name)} stands twice in {what}; take one away"
+        seen.add(name)
+
+
+def _mounts(raw: Mapping[str, Any], effects: Sequence[tuple[int, str]]) -> Iterator[Found]:
+    for i, name in effects:
+        if name != "casing_on_mounts":
+            continue
+        if "casing" not in raw:
+            yield ("effects", i, "type"), f"{quoted(name)} needs the table [casing], which is missing"
+        elif not _table(raw, "casing").get("mounts"):
+            yield ("effects", i, "type"), f"{quoted(name)} needs at least one [[casing.mounts]]"
+
+
+def _points(casing: Mapping[str, Any]) -> Iterator[Found]:
+    names = [
+        (i, point.get("name"))
+        for i, point in enumerate(_items(casing, "points"))
+        if isinstance(point, Mapping)
+    ]
+    texts = [(("casing", "points", i, "name"), name) for i, name in names if isinstance(name, str)]
+    yield from _twice("casing.points", texts)
+
+
+def _quantities(raw: Mapping[str, Any], kind: str, effects: set[str]) -> Iterator[Found]:
+    ask = _table(raw, "ask")
+    asked = ask.get("quantities")
+    if asked == []:
+        yield ("ask", "quantities"), f"an empty list; need at least one of {', '.join(NEEDS[kind])}"
+    found = [
+        (("ask", "quantities", i), name)
+        for i, name in enumerate(_items(ask, "quantities"))
+        if isinstance(name, str)
+    ]
+    yield from _twice("ask.quantities", found)
+    for key, name in found:
+        for message in _quantity(raw, kind, name, effects):
+            yield key, message
+
+
+def _quantity(raw: Mapping[str, Any], kind: str, name: str, effects: set[str]) -> Iterator[str]:
+    offered = NEEDS[kind]
+    if name not in offered:
+        known = name in QUANTITIES
+        yield (
+            f"{quoted(name)} is not offered by {kind}; it offers: {', '.join(offered)}"
+            if known
+            else f"unknown quantity {quoted(name)}; {meant(name, tuple(offered))}"
+        )
+        return
+    lacking = [effect for effect in offered[name] if effect not in effects]
+    if lacking:
+        yield f"{quoted(name)} needs {_absent(lacking)}"
+    if name in NOT_WITH_SPRINGS and _table(raw, "accuracy").get("model") == "springs":
+        yield f'{quoted(name)} is not in accuracy.model = "springs" (rigid discs); take "level0" or "strips"'
+    if name in AT_POINTS and not lacking and "casing" in raw and not _table(raw, "casing").get("points"):
+        yield f"{quoted(name)} needs a measuring point: add [[casing.points]] with name and position"
+
+
+def _absent(effects: Sequence[str]) -> str:
+    if len(effects) == 1:
+        name = quoted(effects[0])
+        return f"the effect {name}, which the scene lacks; add [[effects]] with type = {name}"
+    return f"the effects {listed(effects)}, which the scene lacks; add an [[effects]] block for each"

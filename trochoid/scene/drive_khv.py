@@ -1,0 +1,129 @@
+"""The tables of the planetary-cycloid K-H-V drive, in SI; the starter scene says what each field means."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, Field, ValidationInfo, field_validator
+
+from trochoid.scene.fields import (
+    Angle,
+    Inertia,
+    Length,
+    Mass,
+    Play,
+    PositiveLength,
+    Stiffness,
+    Table,
+    Whole,
+    fault,
+)
+
+
+def _ascending(positions: tuple[float, float]) -> tuple[float, float]:
+    if not positions[0] < positions[1]:
+        raise fault(
+            f"given {positions[0] * 1e3:g} and {positions[1] * 1e3:g} mm; need two places, the lower z first"
+        )
+    return positions
+
+
+BearingPositions = Annotated[tuple[Length, Length], AfterValidator(_ascending)]
+
+
+class OutputPins(Table):
+    """[drive.output_pins]: rollers of the parallel crank in the holes of the discs."""
+
+    count: Annotated[int, Whole(3, 100)]
+    circle_radius: PositiveLength
+    roller_radius: PositiveLength
+    pin_radius: PositiveLength | None = None
+    hole_clearance: Play = 0.0
+    phase: Angle = 0.0
+
+
+class EccentricBearing(Table):
+    """[drive.eccentric_bearing]: the rollers that run on the bore of each disc."""
+
+    kind: Literal["cylindrical"] = "cylindrical"
+    rollers: Annotated[int, Whole(3, 200)]
+    roller_radius: PositiveLength
+    roller_length: PositiveLength
+    clearance: Play = 0.0
+
+
+class Modification(Table):
+    """[drive.modification]: deviation of the ground flank from the theoretical one."""
+
+    equidistant: Length = 0.0
+    radial: Length = 0.0
+    rotation: Angle = 0.0
+
+
+class Ring(Table):
+    """[drive.ring]: the body that holds the ring pins."""
+
+    outer_radius: PositiveLength
+    width: PositiveLength
+
+
+class InputShaft(Table):
+    """[drive.input_shaft]: the shaft with the eccentrics, on two bearings."""
+
+    radius: PositiveLength
+    length: PositiveLength
+    bearing_positions: BearingPositions
+    bearing_stiffness: Stiffness
+    mass: Mass | None = None
+
+
+class OutputFlange(Table):
+    """[drive.output_flange]: the flange with the output pins, on two bearings."""
+
+    outer_radius: PositiveLength
+    thickness: PositiveLength
+    bearing_positions: BearingPositions
+    bearing_stiffness: Stiffness
+    mass: Mass | None = None
+    inertia: Inertia | None = None
+
+
+def _one_less_than_pins(data: dict[str, Any]) -> int:
+    pins: int = data["pins"]
+    return pins - 1
+
+
+class KhvDrive(Table):
+    """[drive] with type = "khv"."""
+
+    type: Literal["khv"]
+    pins: Annotated[int, Whole(4, 1000)]
+    lobes: Annotated[int, Whole(3, 999)] = Field(default_factory=_one_less_than_pins)
+    pin_circle_radius: PositiveLength
+    pin_radius: PositiveLength
+    eccentricity: PositiveLength
+    discs: Annotated[int, Whole(1, 12)] = 2
+    face_width: PositiveLength
+    disc_gap: Play = 0.002
+    bore_radius: PositiveLength
+    fixed: Literal["ring", "output"] = "ring"
+    material: str = "steel"
+    plane: Literal["strain", "stress"] = "strain"
+    pin_clearance: Play = 0.0
+    contact_stiffness: Stiffness | None = None
+    output_pins: OutputPins
+    eccentric_bearing: EccentricBearing
+    modification: Modification = Modification()
+    ring: Ring
+    input_shaft: InputShaft
+    output_flange: OutputFlange
+
+    @field_validator("lobes")
+    @classmethod
+    def _match_pins(cls, lobes: int, info: ValidationInfo) -> int:
+        pins = info.data.get("pins")
+        if pins is not None and lobes != pins - 1:
+            raise fault(
+                f"given {lobes}; need pins - 1 = {pins - 1} (other tooth differences are not offered yet)"
+            )
+        return lobes

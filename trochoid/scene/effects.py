@@ -1,0 +1,54 @@
+"""[[effects]]: the physics that is in the equations; what is not listed is not there and costs nothing."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias, get_args
+
+from pydantic import Field
+
+from trochoid.scene.fields import Table
+
+
+class ElasticContact(Table):
+    """Discs deform where they touch pins, rollers and bearing."""
+
+    type: Literal["elastic_contact"]
+
+
+class PinCompliance(Table):
+    """Ring pins and output pins deform too."""
+
+    type: Literal["pin_compliance"]
+
+
+class Clearance(Table):
+    """Play of pins, holes and bearing, and the modification of the flank."""
+
+    type: Literal["clearance"]
+
+
+class BearingCompliance(Table):
+    """The rollers of the eccentric bearing deform."""
+
+    type: Literal["bearing_compliance"]
+
+
+class InertiaForces(Table):
+    """Inertia forces of the moving members."""
+
+    type: Literal["inertia"]
+
+
+class CasingOnMounts(Table):
+    """The casing moves on its mounts."""
+
+    type: Literal["casing_on_mounts"]
+
+
+AnyEffect: TypeAlias = (
+    ElasticContact | PinCompliance | Clearance | BearingCompliance | InertiaForces | CasingOnMounts
+)
+Effect: TypeAlias = Annotated[AnyEffect, Field(discriminator="type")]
+EFFECTS: tuple[str, ...] = tuple(
+    get_args(kind.model_fields["type"].annotation)[0] for kind in get_args(AnyEffect)
+)

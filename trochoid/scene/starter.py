@@ -1,0 +1,16 @@
+"""The commented scenes that `trochoid new` prints."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+
+from trochoid.faults import listed, quoted
+from trochoid.kinematics.errors import SceneError
+from trochoid.scene.needs import KINDS
+
+
+def starter(kind: str) -> str:
+    """Return the commented starter scene for a kind of drive; raises SceneError for an unknown kind."""
+    if kind not in KINDS:
+        raise SceneError(f"no drive of kind {quoted(kind)}: this version knows {listed(KINDS)}")
+    return (files("trochoid") / "starter" / f"{kind}.toml").read_text(encoding="utf-8")

@@ -1,0 +1,97 @@
+"""Units at the edge: numbers and texts of a scene become SI here, once."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from trochoid.faults import shown
+
+_NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*)?", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """A kind of quantity: `name` with its article, the `unit` of a bare number, and SI = number · up / down.
+
+    Two exact factors instead of one rounded one: 52 mm are 52/1000 m, the float nearest to 0.052.
+    """
+
+    name: str
+    unit: str
+    si: str
+    up: float = 1.0
+    down: float = 1.0
+    example: str = ""
+
+    @property
+    def noun(self) -> str:
+        """The name without its article."""
+        return self.name.split(" ", 1)[1]
+
+    def to_si(self, number: float) -> float:
+        """Return a number of the default unit in SI."""
+        return number * self.up / self.down
+
+    def from_si(self, value: float) -> float:
+        """Return an SI value as a number of the default unit."""
+        return value * self.down / self.up
+
+
+NUMBER = Family("a number", "", "", example="0.3")
+LENGTH = Family("a length", "mm", "m", down=1e3, example='64 or "64 mm"')
+ANGLE = Family("an angle", "deg", "rad", up=math.pi, down=180.0, example='20 or "20 deg"')
+TORQUE = Family("a torque", "N*m", "N*m", example='400 or "400 N*m"')
+SPEED = Family("a rotational speed", "rpm", "rad/s", up=math.pi, down=30.0, example='1500 or "157 rad/s"')
+STRESS = Family("a stress", "MPa", "Pa", up=1e6, example='210000 or "210 GPa"')
+MASS = Family("a mass", "kg", "kg", example='25 or "25 kg"')
+INERTIA = Family("a moment of inertia", "kg*m^2", "kg*m^2", example='0.25 or "0.25 kg*m^2"')
+DENSITY = Family("a density", "kg/m^3", "kg/m^3", example='7850 or "7.85 g/cm^3"')
+STIFFNESS = Family("a stiffness", "N/mm", "N/m", up=1e3, example='300000 or "3e8 N/m"')
+DAMPING = Family("a damping constant", "N*s/m", "N*s/m", example='200 or "200 N*s/m"')
+
+FAMILIES = (LENGTH, ANGLE, TORQUE, SPEED, STRESS, MASS, INERTIA, DENSITY, STIFFNESS, DAMPING)
+
+
+def read(value: object, family: Family) -> float:
+    """Return `value`, a number of the family's default unit or a text with a unit, in SI.
+
+    Raises ValueError that says what was given and what is needed.
+    """
+    if isinstance(value, str):
+        return _read_text(value, family)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(f"given {shown(value)}; need {needed(family)}")
+    return family.to_si(_finite(value, family))
+
+
+def needed(family: Family) -> str:
+    """Return what may be written for a quantity of the family."""
+    unit = f" in {family.unit}" if family.unit else ""
+    return f"{family.name}{unit}, e.g. {family.example}"
+
+
+def _finite(value: int | float, family: Family) -> float:
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise ValueError(f"given {shown(value)}; need a finite number")
+    return number
+
+
+def _read_text(text: str, family: Family) -> float:
+    match = _NUMBER_AND_UNIT.fullmatch(text)
+    if match is None or family is NUMBER:
+        raise ValueError(f"given the text {shown(text)}; need {needed(family)}")
+    digits, unit = match.groups()
+    if unit is None:
+        raise ValueError(f"given the text {shown(text)} without a unit; need {needed(family)}")
+    number = _finite(float(digits), family)
+    if unit.strip() == family.unit:
+        return family.to_si(number)
+    from trochoid.scene.unit_text import to_si
+
+    return _finite(to_si(number, unit.strip(), text, family), family)
