@@ -61,12 +61,12 @@ def assemble(parts: Elements, size: int) -> csc_matrix:
 
 
 def nodal_stress(mesh: Mesh, plane: Plane, displacement: Array) -> Array:
-    """Return the stress per element node (m, 6, 3) as xx, yy, xy in Pa of a nodal displacement (n, 2)."""
+    """Return the stress per element node (m, 6, 3) as xx, yy, xy in Pa of displacements (m, 6, 2) at the elements' nodes."""
     basis = Basis(
         quadratic_mesh(mesh), ElementTriP2(), quadrature=(ElementTriP2.doflocs.T.copy(), np.full(6, 1 / 12))
     )
     gradients = np.stack([basis.basis[i][0].grad for i in range(6)])
-    strain = np.einsum("iaeq,eib->eqab", gradients, displacement[mesh.triangles.T])
+    strain = np.einsum("iaeq,eib->eqab", gradients, displacement)
     trace = np.einsum("eqaa->eq", strain) * plane.lame
     return np.stack(
         [

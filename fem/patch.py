@@ -36,12 +36,16 @@ class PointForce:
 
 @dataclass(frozen=True, slots=True)
 class Patch:
-    """Load of one point force: `dofs` and `values` of the right-hand side, and the nodes where u = U + u_s."""
+    """Load of one point force: `dofs` and `values` of the right-hand side, and the nodes where u = U + u_s.
+
+    `elements` (e,) of D, and `border` (e, 6, 2): u_s at their nodes on Γ, zero at the others; inside D, u = u_s + U − border.
+    """
 
     dofs: IntArray
     values: Array
     nodes: IntArray
     elements: IntArray
+    border: Array
 
 
 def patch_load(body: Body, load: PointForce, radius: float = RADIUS) -> Patch:
@@ -62,12 +66,14 @@ def patch_load(body: Body, load: PointForce, radius: float = RADIUS) -> Patch:
     if len(gamma):
         at_gamma = flamant.displacement(body.plane, position, load.inward, load.force)
         singular[on_gamma] = at_gamma[np.searchsorted(gamma, nodes[on_gamma])]
-    local = np.einsum("eij,ej->ei", body.parts.stiffness[inside], singular.transpose(1, 0, 2).reshape(-1, 12))
+    border_values = singular.transpose(1, 0, 2)
+    local = np.einsum("eij,ej->ei", body.parts.stiffness[inside], border_values.reshape(-1, 12))
     return Patch(
         np.concatenate([dofs, body.parts.dofs[inside].ravel()]),
         np.concatenate([values, local.ravel()]),
         np.setdiff1d(nodes, gamma),
         inside,
+        border_values,
     )
 
 

@@ -32,7 +32,7 @@ class Family:
     """Contacts of one kind.
 
     `kernel` (c,) is the sum of 2/(πE') of both sides over the face width, `round_side` (c,) the smooth part in m/N of a side in closed form (a pin);
-    `law` None means Hertz line contact with the pair's radius, which *strips* can resolve.
+    `law` None means Hertz line contact with the pair's radius, which *strips* can resolve; with another law Hertz gives the pressure only.
     """
 
     name: str
@@ -66,10 +66,7 @@ class Assembly:
 
 @dataclass(frozen=True, slots=True)
 class Touch:
-    """Result for one family: forces (c,) in N, half widths (c,) in m, `peak` line load per half width … pressures are per face width.
-
-    `peak` (c,) is the largest force per contact width in N/m; divided by the face width it is the pressure.
-    """
+    """Result for one family: forces (c,) in N, half widths (c,) in m, and `peak` (c,) in N/m, the largest pressure times the face width."""
 
     state: State
     force: Array
@@ -181,7 +178,7 @@ def _result(
     touches = {}
     for family, state, force in zip(assembly.families, states, solution.forces, strict=True):
         total = force.sum(axis=1)
-        half = HertzLine(family.kernel, state.radius).half_width(total) if family.law is None else np.zeros_like(total)
+        half = HertzLine(family.kernel, state.radius).half_width(total)
         peak = np.divide(2 * total, np.pi * half, out=np.zeros_like(total), where=half > 0)
         touches[family.name] = Touch(state, total, half, peak)
     return Contact(

@@ -11,6 +11,7 @@ from trochoid.geometry.session import gmsh_session
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, IntArray
 
+_GRID = 2.0**30  # snapping to a fine grid makes the mesh independent of the unit of length and of rounding
 _FAR = 2.0  # beyond every distance in a body of extent 1
 _SIZE_STEP = 1.25  # boundary points whose facets differ less share one size field
 
@@ -23,19 +24,19 @@ def triangulate(loops: Sequence[Array], slope: float) -> tuple[Array, IntArray]:
     """
     boundary = np.concatenate(loops)
     shift, scale = boundary.mean(axis=0), float(np.ptp(boundary, axis=0).max())
-    unit = [(loop - shift) / scale for loop in loops]
+    unit = [np.rint((loop - shift) / scale * _GRID) / _GRID + 0.0 for loop in loops]
     with gmsh_session() as gmsh:
         try:
             _add_polygons(gmsh, unit)
             _add_sizes(gmsh, unit, slope)
             gmsh.model.mesh.generate(2)
         except Exception as error:  # gmsh raises bare exceptions
-            raise TrochoidError(
-                f"gmsh could not mesh the outline: {error}; check that its loops do not cross"
-            ) from error
+            raise TrochoidError(f"gmsh could not mesh the outline ({error}); do its loops cross?") from error
         tags, xyz, _ = gmsh.model.mesh.getNodes()
         _, corner_tags = gmsh.model.mesh.getElementsByType(2)
-    return _as_arrays(boundary, shift, scale, tags, xyz, corner_tags)
+    points, triangles = _as_arrays(boundary, shift, scale, tags, xyz, corner_tags)
+    _fail_if_not_filled(loops, points, triangles)
+    return points, triangles
 
 
 def _add_polygons(gmsh: ModuleType, loops: Sequence[Array]) -> None:
@@ -84,10 +85,32 @@ def _as_arrays(
     points = shift + scale * xyz.reshape(-1, 3)[order, :2]
     triangles = np.searchsorted(tags[order], corner_tags).reshape(-1, 3).T.astype(np.intp)
     fixed = len(boundary)
-    if len(points) < fixed or np.abs(points[:fixed] - boundary).max() > 1e-9 * scale:
+    if len(points) < fixed or np.abs(points[:fixed] - boundary).max() > 1e-8 * scale:
         raise TrochoidError("gmsh did not keep the boundary points; are two of them in one place?")
     points[:fixed] = boundary
-    a, b, c = points[triangles[0]], points[triangles[1]], points[triangles[2]]
-    flipped = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0] < 0.0
+    flipped = _doubled_areas(points, triangles) < 0.0
     triangles[1:, flipped] = triangles[:0:-1, flipped]
     return points, triangles
+
+
+def _doubled_areas(points: Array, triangles: IntArray) -> Array:
+    a, b, c = points[triangles]
+    areas: Array = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    return areas
+
+
+def _fail_if_not_filled(loops: Sequence[Array], points: Array, triangles: IntArray) -> None:
+    """Compare the triangles' area with that of the polygons (shoelace): they differ when loops cross."""
+    doubled = []
+    for loop in loops:
+        after = np.roll(loop, -1, axis=0)
+        doubled.append(float(np.sum(loop[:, 0] * after[:, 1] - loop[:, 1] * after[:, 0])))
+    if min(doubled) <= 0.0:
+        raise TrochoidError(
+            "a loop of the outline runs clockwise or crosses itself; give all counter-clockwise"
+        )
+    wanted, found = doubled[0] - sum(doubled[1:]), float(_doubled_areas(points, triangles).sum())
+    if abs(found - wanted) > 1e-6 * doubled[0]:
+        raise TrochoidError(
+            f"triangles cover {0.5 * found:.6g} m² of an outline of {0.5 * wanted:.6g} m²; do its loops cross?"
+        )

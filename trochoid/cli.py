@@ -76,7 +76,7 @@ def new(kind: str) -> None:
 
     KIND is the kind of drive: khv (planetary-cycloid reducer).
     """
-    from trochoid.scene import starter
+    from trochoid.starter import starter
 
     click.echo(starter(kind), nl=False)
 
@@ -123,8 +123,8 @@ def run(scene: str, out: Path | None, overrides: tuple[str, ...], ask: str | Non
 
     if folder is not None:
         results.prepare(folder)
-    with console.progress():
-        outcome = Run(loaded).outcome
+    with console.progress() as announce:
+        outcome = Run(loaded, announce).outcome
         files = () if folder is None else results.write(outcome, folder)
     if as_json:
         click.echo(results.to_json(outcome), nl=False)

@@ -5,36 +5,21 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
 
 @contextmanager
-def progress() -> Iterator[None]:
-    """Show what the loggers under "trochoid" say on a terminal, one message at a time; a pipe stays quiet."""
+def progress() -> Iterator[Callable[[str], None]]:
+    """Yield what announces a stage: a status line on a terminal, nothing in a pipe."""
     if not sys.stderr.isatty():
-        yield
+        yield lambda stage: None
         return
-    import logging
-
     from rich.console import Console
     from rich.markup import escape
 
     with Console(stderr=True).status("starting") as status:
-
-        class Shown(logging.Handler):
-            def emit(self, record: logging.LogRecord) -> None:
-                status.update(escape(record.getMessage()))
-
-        logger, handler = logging.getLogger("trochoid"), Shown(logging.INFO)
-        before = logger.level
-        logger.addHandler(handler)
-        logger.setLevel(logging.INFO)
-        try:
-            yield
-        finally:
-            logger.removeHandler(handler)
-            logger.setLevel(before)
+        yield lambda stage: status.update(escape(stage))
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -44,8 +45,7 @@ def dotted(key: Key) -> str:
 
 def quoted(text: str) -> str:
     """Return `text` in double quotes, on one line."""
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
-    return f'"{escaped}"'
+    return json.dumps(text, ensure_ascii=False)
 
 
 def listed(names: Iterable[str]) -> str:
@@ -72,7 +72,7 @@ def nearest(name: str, known: Sequence[str]) -> str | None:
     from difflib import get_close_matches
 
     plain = {candidate.lower(): candidate for candidate in known}
-    found = get_close_matches(name.lower().replace("-", "_"), plain, n=1, cutoff=0.6)
+    found = get_close_matches(name.lower().replace("-", "_"), plain, n=1, cutoff=0.65)
     return plain[found[0]] if found else None
 
 

@@ -7,6 +7,7 @@ import math
 import os
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -29,11 +30,10 @@ def view(folder: Path, screenshot: Path | None = None) -> None:
 
     Raises TrochoidError when there are no fields, nothing to draw on, or the picture cannot be written.
     """
-    collection: Any = _collection(Path(folder))
+    collection = _collection(Path(folder))
     _choose_window(screenshot)
-    import pyvista
-
-    reader: Any = pyvista.get_reader(collection)
+    pyvista: Any = import_module("pyvista")
+    reader = pyvista.PVDReader(str(collection))
     times = list(reader.time_values)
     bodies = _read(reader, times[0])
     size = [max(900, 700 * len(bodies)), 760]

@@ -170,6 +170,16 @@ def test_free_bodies_do_not_shake_as_a_whole() -> None:
 
 
 @pytest.mark.exact
+def test_soft_is_not_free() -> None:
+    """Two masses m on a joint k, one of them on 1e-9·k: ω² ≈ 1e-9·k/2m, not taken for free."""
+    k, soft = 1e8, 0.1
+    basis = natural_modes(2.0 * np.eye(2), np.array([[k + soft, -k], [-k, k]]))
+    assert basis.angular_frequencies[0] == pytest.approx(np.sqrt(soft / 4.0), rel=1e-6)
+    assert basis.angular_frequencies[1] == pytest.approx(np.sqrt(k), rel=1e-8)
+    assert natural_modes(2.0 * np.eye(2), np.array([[k, -k], [-k, k]])).angular_frequencies[0] == 0.0
+
+
+@pytest.mark.exact
 def test_mass_ratio_of_a_thousand_million() -> None:
     """1 g on 1000 t, both on springs, undamped: solved in exact fractions beside the program."""
     small, large = Fraction(1, 1000), Fraction(10**6)

@@ -258,7 +258,8 @@ def test_exact_gap_is_the_distance_to_a_densely_sampled_tooth() -> None:
     near = t[:, None] + np.linspace(-0.05, 0.05, 40001)
 
     def sampled(turn: float) -> Array:
-        return np.linalg.norm(turned(ground.point(near), turn) - pins[:, None], axis=-1).min(axis=1)
+        away: Array = np.linalg.norm(turned(ground.point(near), turn) - pins[:, None], axis=-1)
+        return np.asarray(away.min(axis=1))
 
     distance = np.maximum(sampled(change.rotation), sampled(-change.rotation))
     np.testing.assert_allclose(g, distance - EXAMPLE.pin_radius, atol=1e-11)

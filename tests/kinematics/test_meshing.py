@@ -48,21 +48,21 @@ def test_the_example_is_feasible() -> None:
 
 @pytest.mark.exact
 @pytest.mark.parametrize(
-    ("change", "message"),
+    ("cycloid", "message"),
     [
-        ({"pins": 3, "lobes": 2}, "pins = 3: at least 4 pins"),
-        ({"pin_radius": 0.0}, "pin_radius = 0.0 m: a positive length"),
-        ({"eccentricity": -0.001}, "eccentricity = -0.001 m: a positive length"),
-        ({"eccentricity": math.nan}, "eccentricity = nan m"),
-        ({"eccentricity": 0.004}, "eccentricity = 4 mm: it must be less than .* = 4 mm"),
-        ({"eccentricity": 0.0039, "pin_radius": 0.006}, "pin_radius = 6 mm: the flank is undercut"),
-        ({"pin_radius": 0.0126}, "neighbouring pins overlap; it must be less than .* = 12.5148 mm"),
+        (Cycloid(3, 2, 0.08, 0.005, 0.0025), "pins = 3: at least 4 pins"),
+        (Cycloid(20, 19, 0.08, 0.0, 0.0025), "pin_radius = 0.0 m: a positive length"),
+        (Cycloid(20, 19, 0.08, 0.005, -0.001), "eccentricity = -0.001 m: a positive length"),
+        (Cycloid(20, 19, 0.08, 0.005, math.nan), "eccentricity = nan m"),
+        (Cycloid(20, 19, 0.08, 0.005, 0.004), "eccentricity = 4 mm: it must be less than .* = 4 mm"),
+        (Cycloid(20, 19, 0.08, 0.006, 0.0039), "pin_radius = 6 mm: the flank is undercut"),
+        (Cycloid(20, 19, 0.08, 0.0126, 0.0025), "pins overlap; it must be less than .* = 12.5148 mm"),
     ],
 )
-def test_what_cannot_be_made_is_refused(change: dict[str, float], message: str) -> None:
+def test_what_cannot_be_made_is_refused(cycloid: Cycloid, message: str) -> None:
     """Issue 2, bad input: undercut, e ≥ R/z_p, 3 pins, pins that overlap."""
     with pytest.raises(Infeasible, match=message):
-        check_cycloid(replace(EXAMPLE, **change))
+        check_cycloid(cycloid)
 
 
 @pytest.mark.property

@@ -70,7 +70,7 @@ def test_two_discs_balance_each_other() -> None:
 
 @pytest.mark.exact
 def test_identical_discs_need_an_even_number_of_pins() -> None:
-    """Sources §3: two discs are alike if 2 | z_p: half a turn is then the flange lead, but for whole lobes."""
+    """Sources §3: two discs are alike if 2 | z_p: half a turn is then the flange lead, up to whole lobes."""
     for pins, alike in ((20, True), (21, False)):
         cycloid = Cycloid(pins, pins - 1, 0.08, 0.004, 0.002)
         lobe = 2.0 * math.pi / cycloid.lobes

@@ -40,7 +40,7 @@ def test_ring_output_ratio() -> None:
 @pytest.mark.independent
 @given(lobes=st.integers(1, 300), difference=st.integers(1, 4), choice=st.sampled_from(CHOICES))
 def test_khv_speeds_by_inverted_motion(lobes: int, difference: int, choice: tuple[str, str, str]) -> None:
-    """Willis: seen from the crank, disc and ring are an internal pair, z_c ω_c = z_p ω_p, whatever is fixed."""
+    """Willis: seen from the crank, disc and ring are an internal pair: z_c ω_c = z_p ω_p."""
     fixed, driving, driven = choice
     pins = lobes + difference
     result = speeds(khv_train(pins, lobes), fixed, driving, driven)

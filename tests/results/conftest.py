@@ -270,7 +270,22 @@ QUANTITIES = {
     "torsional_stiffness": Quantity(101.3127, "N*m/arcmin", 0.41, "strips"),
     "contact_force_max": Quantity(405.4691, "N", 0.37, "strips"),
     "contact_pressure_max": Quantity(1183.42, "MPa", 4.6, "strips"),
-    "stress_max": Quantity(512.8, "MPa", 21.0, "strips", note="von Mises, below pin 4 of disc 1"),
+    "stress_max": Quantity(
+        parts={
+            "below_contact": Quantity(512.8, "MPa", 21.0, "strips", note="below pin 4 of disc 1"),
+            "in_the_field": Quantity(171.3, "MPa", 8.0, "strips"),
+        },
+        note="von Mises",
+    ),
+    "profile": Quantity(
+        parts={
+            "trochoid_ratio": Quantity(0.625, "", 0.0, "exact"),
+            "pitch_radius_disc": Quantity(47.5, "mm", 0.0, "exact"),
+            "pitch_radius_pins": Quantity(50.0, "mm", 0.0, "exact"),
+            "crest_radius": Quantity(77.5, "mm", 0.0, "exact"),
+            "pin_radius_undercut_limit": Quantity(27.9, "mm", 0.0, "exact", note="larger pins cut the flank"),
+        }
+    ),
     "transmission_error": Quantity(0.0371, "arcmin", 0.0004, "strips", note="peak to peak"),
     "vibration_zone": Quantity(None, note="none applies: 63 W is below the 15 kW of ISO 20816-3"),
     "vibration_velocity": Quantity(

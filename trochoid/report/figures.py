@@ -87,7 +87,12 @@ def _x_axis(panels: Sequence[Panel], row: int) -> dict[str, Any]:
         turn = curve.x.size > 1 and abs(curve.x[-1] - curve.x[0]) > 3.5
         settings |= {"ticksuffix": "°", "dtick": 45 if turn else None}
     if curve.log and curve.spectrum:
-        settings |= {"type": "log", "dtick": "D2", "tickformat": "~r", "minor": {"showgrid": True, "gridcolor": "#f3f5f7"}}
+        settings |= {
+            "type": "log",
+            "dtick": "D2",
+            "tickformat": "~r",
+            "minor": {"showgrid": True, "gridcolor": "#f3f5f7"},
+        }
     if row and panels[0].first.x_dim == curve.x_dim:
         settings["matches"] = "x"
     return settings

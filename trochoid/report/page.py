@@ -73,7 +73,7 @@ def _drawing(outcome: Outcome) -> dict[str, Any] | None:
 
 def _embedded(data: Any) -> str:
     """Return `data` as JSON that cannot end the script element it stands in."""
-    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
 def _file(name: str) -> str:

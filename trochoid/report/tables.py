@@ -9,41 +9,58 @@ from typing import Any
 from trochoid.results import text
 from trochoid.results.outcome import Parts, Quantity
 
+_TILE = 4  # parts that still fit into a tile
+Leaf = tuple[str, Quantity]
+
 
 @dataclass(frozen=True, slots=True)
-class Tile:
-    """A headline number."""
+class Number:
+    """A value as shown, with the name that it has among its like."""
 
     name: str
     value: str
     error: str
     unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Tile:
+    """A headline: one large number, or a few."""
+
+    name: str
+    numbers: tuple[Number, ...]
     model: str
-    note: str
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row of a table: its name, its cells, and a remark."""
+
+    name: str
+    cells: tuple[str, ...]
+    note: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table with a heading; cells are text, the first column names the row."""
+    """A table with a heading; `head` names the columns where there is more than one."""
 
     title: str
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+    rows: tuple[Row, ...]
+    head: tuple[str, ...] = ()
+    model: str = ""
     note: str = ""
 
 
 def tiles_of(quantities: Mapping[str, Quantity]) -> list[Tile]:
-    """Return the quantities that are one value."""
-    return [_tile(name, quantity) for name, quantity in quantities.items() if quantity.parts is None]
+    """Return the quantities that are one value or a few."""
+    return [_tile(name, quantity) for name, quantity in quantities.items() if _fits(quantity)]
 
 
 def tables_of(quantities: Mapping[str, Quantity]) -> list[Table]:
-    """Return a table per quantity with parts; where several things have the same parts, a row per thing."""
-    return [
-        _table(name, quantity, quantity.parts)
-        for name, quantity in quantities.items()
-        if quantity.parts is not None
-    ]
+    """Return the other quantities; where several things have the same parts, a row per thing."""
+    return [_table(name, quantity) for name, quantity in quantities.items() if not _fits(quantity)]
 
 
 def scene_tables(scene: Mapping[str, Any]) -> list[Table]:
@@ -51,67 +68,93 @@ def scene_tables(scene: Mapping[str, Any]) -> list[Table]:
     tables, loose = [], []
     for name, entry in scene.items():
         if isinstance(entry, (Mapping, list)) and entry:
-            tables.append(Table(name, ("key", "value"), tuple(_leaves(entry))))
+            tables.append(Table(name, tuple(Row(key, (value,)) for key, value in _keys(entry))))
         else:
-            loose.append((name, _literal(entry)))
-    return [*([Table("", ("key", "value"), tuple(loose))] if loose else []), *tables]
+            loose.append(Row(name, (_literal(entry),)))
+    return [*([Table("", tuple(loose))] if loose else []), *tables]
+
+
+def _fits(quantity: Quantity) -> bool:
+    parts = quantity.parts
+    return parts is None or (len(parts) <= _TILE and all(_is_leaf(part) for part in parts.values()))
 
 
 def _tile(name: str, quantity: Quantity) -> Tile:
-    value, error = text.value_and_error(quantity.value, quantity.error)
+    leaves = list(_leaves(quantity.parts)) if quantity.parts is not None else [("", quantity)]
+    notes = [f"{text.label(part)}: {leaf.note}" for part, leaf in leaves if part and leaf.note]
+    model = quantity.model or _shared_model(leaves)
     return Tile(
         text.label(name),
-        value,
-        error,
-        text.pretty_unit(quantity.unit),
-        quantity.model or "",
-        quantity.note or "",
+        tuple(_number(part, leaf) for part, leaf in leaves),
+        model,
+        (*([quantity.note] if quantity.note else []), *notes),
     )
 
 
-def _table(name: str, quantity: Quantity, parts: Parts) -> Table:
-    note = " · ".join(filter(None, (quantity.model and f"model: {quantity.model}", quantity.note)))
-    inner = [part if not isinstance(part, Quantity) else part.parts for part in parts.values()]
-    columns = _shared_columns(inner)
+def _number(name: str, quantity: Quantity) -> Number:
+    value, error = text.value_and_error(quantity.value, quantity.error)
+    return Number(text.label(name), value, error, text.pretty_unit(quantity.unit))
+
+
+def _table(name: str, quantity: Quantity) -> Table:
+    parts = quantity.parts or {}
+    leaves = list(_leaves(parts))
+    model = quantity.model or _shared_model(leaves)
+    groups = [(key, _inner(part)) for key, part in parts.items()]
+    columns = _shared_columns([group for _, group in groups])
+    head = tuple(map(text.label, columns))
     if columns:
-        rows = tuple(
-            (text.label(key), *(_cell(part[c]) for c in columns))
-            for key, part in zip(parts, inner, strict=True)
-            if part
-        )
-        return Table(text.label(name), ("", *map(text.label, columns)), rows, note)
-    return Table(text.label(name), ("", "value"), tuple(_rows(parts)), note)
+        rows = [Row(text.label(key), tuple(_cell(group[c]) for c in columns)) for key, group in groups]
+    else:
+        rows = [_row(path, leaf, "" if model else leaf.model or "") for path, leaf in leaves]
+    return Table(text.label(name), tuple(rows), head, model, quantity.note or "")
 
 
-def _shared_columns(parts: Sequence[Parts | None]) -> tuple[str, ...]:
-    """Return the keys of `parts` when all have the same ones and these are values; else nothing."""
-    first = parts[0] if parts else None
-    if not first or any(part is None or list(part) != list(first) for part in parts):
-        return ()
-    leaves = (leaf for part in parts if part for leaf in part.values())
-    return tuple(first) if all(isinstance(leaf, Quantity) and leaf.parts is None for leaf in leaves) else ()
+def _row(path: str, leaf: Quantity, model: str) -> Row:
+    return Row(text.label(path), (text.sentence(leaf),), " · ".join(filter(None, (model, leaf.note))))
 
 
-def _rows(parts: Parts, path: str = "") -> Iterator[tuple[str, str]]:
+def _leaves(parts: Parts, path: str = "") -> Iterator[Leaf]:
+    """Yield the values among nested parts with the path to each."""
     for name, part in parts.items():
-        here = f"{path} · {name.replace('_', ' ')}" if path else text.label(name)
+        here = f"{path} · {name.replace('_', ' ')}" if path else name
         if isinstance(part, Quantity) and part.parts is None:
-            yield here, _cell(part)
+            yield here, part
         else:
-            yield from _rows((part.parts or {}) if isinstance(part, Quantity) else part, here)
+            yield from _leaves(_inner(part), here)
+
+
+def _shared_model(leaves: Sequence[Leaf]) -> str:
+    models = {leaf.model for _, leaf in leaves}
+    return models.pop() or "" if len(models) == 1 else ""
+
+
+def _shared_columns(groups: Sequence[Parts]) -> tuple[str, ...]:
+    """Return the keys of `groups` when all have the same ones and these are values; else nothing."""
+    if len(groups) < 2 or not groups[0] or any(list(group) != list(groups[0]) for group in groups):
+        return ()
+    return tuple(groups[0]) if all(_is_leaf(part) for group in groups for part in group.values()) else ()
+
+
+def _inner(part: Quantity | Parts) -> Parts:
+    return (part.parts or {}) if isinstance(part, Quantity) else part
+
+
+def _is_leaf(part: Quantity | Parts) -> bool:
+    return isinstance(part, Quantity) and part.parts is None
 
 
 def _cell(part: Quantity | Parts) -> str:
     return text.sentence(part) if isinstance(part, Quantity) else ""
 
 
-def _leaves(entry: Any, path: str = "") -> Iterator[tuple[str, str]]:
+def _keys(entry: Any, path: str = "") -> Iterator[tuple[str, str]]:
     if isinstance(entry, Mapping) and entry:
         for key, item in entry.items():
-            yield from _leaves(item, f"{path}.{key}" if path else str(key))
+            yield from _keys(item, f"{path}.{key}" if path else str(key))
     elif isinstance(entry, list) and any(isinstance(item, Mapping) for item in entry):
         for index, item in enumerate(entry, start=1):
-            yield from _leaves(item, f"{path} {index}".strip())
+            yield from _keys(item, f"{path} {index}".strip())
     else:
         yield path, _literal(entry)
 

@@ -50,7 +50,8 @@ def number(value: float | str | None, digits: int = 5) -> str:
     exponent = math.floor(math.log10(abs(value)))
     if -4 <= exponent < 6:
         return _signed(_stripped(f"{value:.{max(0, digits - 1 - exponent)}f}"))
-    return _signed(_power(*f"{value:.{digits - 1}e}".split("e")))
+    mantissa, power = f"{value:.{digits - 1}e}".split("e")
+    return _signed(_power(_stripped(mantissa), int(power)))
 
 
 def value_and_error(value: float | str | None, error: float | None) -> tuple[str, str]:
@@ -72,12 +73,10 @@ def value_and_error(value: float | str | None, error: float | None) -> tuple[str
     decimals = max(0, -last)
     shown, margin = f"{value / 10.0**scale:.{decimals}f}", f"{error / 10.0**scale:.{decimals}f}"
     if float(margin) == 0.0:
-        return _signed(shown), ""
-    return (
-        (_signed(_power(shown, str(scale))), _power(margin, str(scale)))
-        if scale
-        else (_signed(shown), margin)
-    )
+        return number(value, 10), ""
+    if scale:
+        shown, margin = _power(shown, scale), _power(margin, scale)
+    return _signed(shown), margin
 
 
 def sentence(quantity: Quantity) -> str:
@@ -102,8 +101,8 @@ def _lowered(digits: str) -> str:
     return digits.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
 
 
-def _power(mantissa: str, exponent: str) -> str:
-    return f"{_stripped(mantissa)}×10{str(int(exponent)).translate(_SUPERSCRIPTS)}"
+def _power(mantissa: str, exponent: int) -> str:
+    return f"{mantissa}×10{str(exponent).translate(_SUPERSCRIPTS)}"
 
 
 def _stripped(digits: str) -> str:

@@ -14,7 +14,7 @@ FILES = ("results.json", "results.nc", "report.html", "fields.pvd")
 def write(outcome: Outcome, out_dir: Path) -> tuple[Path, ...]:
     """Write results.json, report.html and, where there is something for them, results.nc and fields.
 
-    Returns the files, without the .vtu ones that fields.pvd opens. What only a previous run had is removed, so that
+    Returns the files, without the .vtu ones that fields.pvd opens. What only a previous run had is removed;
     the folder holds one run. Raises TrochoidError when it cannot be written; it is then as it was.
     """
     out_dir = Path(out_dir)

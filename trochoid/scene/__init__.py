@@ -18,7 +18,6 @@ from trochoid.scene.model import Scene
 from trochoid.scene.needs import KINDS, NEEDS, QUANTITIES
 from trochoid.scene.operation import Operation
 from trochoid.scene.overrides import Override
-from trochoid.scene.starter import starter
 
 __all__ = [
     "EFFECTS",
@@ -44,5 +43,4 @@ __all__ = [
     "Scene",
     "load",
     "read",
-    "starter",
 ]

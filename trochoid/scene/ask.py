@@ -8,11 +8,11 @@ from trochoid.scene.fields import Angle, Fraction, Table, Whole
 
 
 class Ask(Table):
-    """[ask]: the quantities wanted, at how many positions of one lobe pitch or turn."""
+    """[ask]: the quantities wanted, at how many positions of one turn of the input."""
 
     quantities: tuple[str, ...]
     positions: Annotated[int, Whole(1, 100_000)] = 60
-    stress_position: Angle | None = None
+    stress_position: Angle = 0.0
 
 
 class Accuracy(Table):

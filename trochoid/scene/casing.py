@@ -28,7 +28,7 @@ class Casing(Table):
     mass: Mass
     inertia: tuple[Inertia, Inertia, Inertia]
     center: Position = (0.0, 0.0, 0.0)
-    machine: Literal["auto", "gear_unit", "industrial_machine"] = "auto"
+    machine: Literal["gear_unit", "industrial_machine"] = "gear_unit"
     rigid_support: Boolean = False
     mounts: tuple[Mount, ...] = ()
     points: tuple[MeasuringPoint, ...] = ()

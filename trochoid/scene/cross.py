@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 from trochoid.faults import Key, listed, meant, nearest, quoted, shown
 from trochoid.scene.effects import EFFECTS
 from trochoid.scene.materials import PREDEFINED
-from trochoid.scene.needs import AT_POINTS, KINDS, NEEDS, NOT_WITH_SPRINGS, QUANTITIES
+from trochoid.scene.needs import ELASTIC_MODELS, KINDS, NEEDS, NOT_WITH_SPRINGS, QUANTITIES
 
 Found: TypeAlias = tuple[Key, str]
 
@@ -20,6 +20,7 @@ def faults(raw: Mapping[str, Any]) -> Iterator[Found]:
     yield from _material(drive, _table(raw, "materials"))
     yield from _twice("effects", [(("effects", i, "type"), name) for i, name in effects])
     yield from _mounts(raw, effects)
+    yield from _model(_table(raw, "accuracy"), {name for _, name in effects} | _probable_effects(raw))
     yield from _points(_table(raw, "casing"))
     kind = drive.get("type")
     if isinstance(kind, str) and kind in KINDS:
@@ -91,6 +92,12 @@ def _mounts(raw: Mapping[str, Any], effects: Sequence[tuple[int, str]]) -> Itera
             yield ("effects", i, "type"), f"{quoted(name)} needs at least one [[casing.mounts]]"
 
 
+def _model(accuracy: Mapping[str, Any], effects: set[str]) -> Iterator[Found]:
+    model = accuracy.get("model")
+    if isinstance(model, str) and model in ELASTIC_MODELS and "elastic_contact" not in effects:
+        yield ("accuracy", "model"), f"{quoted(model)} needs {_absent(['elastic_contact'])}"
+
+
 def _points(casing: Mapping[str, Any]) -> Iterator[Found]:
     names = [
         (i, point.get("name"))
@@ -132,8 +139,6 @@ def _quantity(raw: Mapping[str, Any], kind: str, name: str, effects: set[str]) -
         yield f"{quoted(name)} needs {_absent(lacking)}"
     if name in NOT_WITH_SPRINGS and _table(raw, "accuracy").get("model") == "springs":
         yield f'{quoted(name)} is not in accuracy.model = "springs" (rigid discs); take "level0" or "strips"'
-    if name in AT_POINTS and not lacking and "casing" in raw and not _table(raw, "casing").get("points"):
-        yield f"{quoted(name)} needs a measuring point: add [[casing.points]] with name and position"
 
 
 def _absent(effects: Sequence[str]) -> str:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin
+from collections.abc import Iterator, Mapping
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from trochoid.faults import Key, dotted, listed, meant, nearest, quoted, shown
+from trochoid.scene import form
 from trochoid.scene.effects import EFFECTS
 from trochoid.scene.fields import FAULT
 from trochoid.scene.model import Scene
@@ -21,13 +20,13 @@ _EFFECT_TYPES = ("union_tag_invalid", "union_tag_not_found")
 def explained(error: ValidationError) -> Iterator[tuple[Key, str]]:
     """Yield (key, message) for each error, one for what is one mistake."""
     details = error.errors(include_url=False)
-    wrong_names = {_misspelt(e["loc"]) for e in details if e["type"] == "extra_forbidden"}
+    meant_keys = {key for e in details if e["type"] == "extra_forbidden" for key in _meant_keys(e["loc"])}
     seen: set[Key] = set()
     for detail in details:
         key = _key(detail)
         if detail["type"] == "default_factory_not_called" or key in seen:
             continue
-        if detail["type"] == "missing" and key in wrong_names:
+        if detail["type"] == "missing" and key in meant_keys:
             continue
         if detail["type"] != "extra_forbidden":
             seen.add(key)
@@ -56,14 +55,14 @@ def _message(detail: ErrorDetails, key: Key) -> str:
         return f"given {shown(given)}; need a table [{dotted(key)}]"
     if kind == "missing" and isinstance(detail["loc"][-1], str):
         return _missing(key)
-    return f"given {shown(given)}; need {_allowed(_annotation(key))}"
+    return f"given {shown(given)}; need {form.allowed(form.annotation_at(key))}"
 
 
 def _missing(key: Key) -> str:
-    annotation = _annotation(key)
-    if _model(annotation) is not None:
+    annotation = form.annotation_at(key)
+    if form.model_of(annotation) is not None:
         return f"missing table [{dotted(key)}]"
-    return f"missing; need {_allowed(annotation)}"
+    return f"missing; need {form.allowed(annotation)}"
 
 
 def _effect(given: object) -> str:
@@ -75,94 +74,23 @@ def _effect(given: object) -> str:
     return f"unknown effect {quoted(name)}; {meant(name, EFFECTS)}"
 
 
-def _misspelt(loc: Key) -> Key:
-    """Return the key that an unknown one was probably meant to be."""
-    near = nearest(str(loc[-1]), _names(loc[:-1]))
-    return (*loc[:-1], near) if near and not _homes(loc) else ()
+def _meant_keys(key: Key) -> list[Key]:
+    """Return what an unknown key was probably meant to be: its name elsewhere, else a similar one here."""
+    near = nearest(str(key[-1]), form.names(key[:-1]))
+    return [(*home, key[-1]) for home in _homes(key)] or ([(*key[:-1], near)] if near else [])
 
 
 def _unknown_key(key: Key) -> str:
-    known, name = _names(key[:-1]), str(key[-1])
+    known, name = form.names(key[:-1]), str(key[-1])
     homes = _homes(key)
     if not homes:
         return f"unknown key; {meant(name, known)}"
     near = nearest(name, known)
     here = f"; or did you mean {quoted(near)}?" if near else ""
-    return f"unknown key here; it belongs to {' or '.join(homes)}{here}"
+    places = " or ".join(f"[{dotted(home)}]" if home else "the top level" for home in homes)
+    return f"unknown key here; it belongs to {places}{here}"
 
 
-def _homes(key: Key) -> list[str]:
+def _homes(key: Key) -> list[Key]:
     """Return the tables that do know the last part of `key`."""
-    tables = [table for table, model in _tables(Scene) if key[-1] in model.model_fields]
-    return [f"[{dotted(table)}]" if table else "the top level" for table in tables]
-
-
-def _names(key: Key) -> Sequence[str]:
-    """Return the keys that the table at `key` knows; of an effect, whichever it is, those of all effects."""
-    annotation = _annotation(key)
-    models = [model for part in (annotation, *get_args(_bare(annotation))) if (model := _model(part))]
-    return tuple(dict.fromkeys(name for model in models for name in model.model_fields))
-
-
-def _tables(model: type[BaseModel], key: Key = ()) -> Iterator[tuple[Key, type[BaseModel]]]:
-    """Yield every table that has a fixed name, with its key."""
-    yield key, model
-    for name, info in model.model_fields.items():
-        inner = _model(info.annotation)
-        if inner is not None:
-            yield from _tables(inner, (*key, name))
-
-
-def _annotation(key: Key) -> Any:
-    """Return the type of what stands at `key`; an entry of a list or of a dictionary may have any name."""
-    annotation: Any = Scene
-    for part in key:
-        model = _model(annotation)
-        if model is not None:
-            info = model.model_fields.get(str(part))
-            if info is None:
-                return None
-            annotation = Annotated[info.annotation, *info.metadata] if info.metadata else info.annotation
-            continue
-        args = get_args(_bare(annotation))
-        if not args:
-            return None
-        annotation = args[1] if _bare_origin(annotation) is dict else args[0]
-    return annotation
-
-
-def _bare(annotation: Any) -> Any:
-    """Return the type without Annotated and without `| None`."""
-    if get_origin(annotation) is Annotated:
-        return _bare(get_args(annotation)[0])
-    if get_origin(annotation) in (Union, UnionType):
-        rest = [arg for arg in get_args(annotation) if arg is not NoneType]
-        return _bare(rest[0]) if len(rest) == 1 else annotation
-    return annotation
-
-
-def _bare_origin(annotation: Any) -> Any:
-    return get_origin(_bare(annotation))
-
-
-def _model(annotation: Any) -> type[BaseModel] | None:
-    bare = _bare(annotation)
-    return bare if isinstance(bare, type) and issubclass(bare, BaseModel) else None
-
-
-def _allowed(annotation: Any) -> str:
-    """Return in words what may be written for a type."""
-    origin = get_origin(annotation)
-    if origin is Annotated:
-        said = [m.allowed for m in get_args(annotation)[1:] if hasattr(m, "allowed")]
-        return said[0] if said else _allowed(get_args(annotation)[0])
-    if origin in (Union, UnionType):
-        return _allowed(next(arg for arg in get_args(annotation) if arg is not NoneType))
-    if origin is Literal:
-        return f"one of {listed(map(str, get_args(annotation)))}"
-    if origin is tuple:
-        first, *others = get_args(annotation)
-        if Ellipsis in others:
-            return "a list of texts" if first is str else "a list of tables"
-        return f"a list of {1 + len(others)}, each {_allowed(first)}"
-    return "a text" if annotation is str else "a table"
+    return [table for table, model in form.tables(Scene) if key[-1] in model.model_fields]

@@ -28,7 +28,7 @@ class Table(BaseModel):
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """A quantity of one family; limits (`above`, `below` exclusive, `least` inclusive) in its default unit."""
+    """A quantity of a family; limits in the default unit, `above`, `below` exclusive, `least` inclusive."""
 
     family: Family
     above: float | None = None

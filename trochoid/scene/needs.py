@@ -29,7 +29,7 @@ QUANTITIES = (
     "mass",
 )
 
-# quantity -> effects without which it has no meaning: how rigid bodies share a load is not determined
+# quantity -> effects without which it has no meaning (without "elastic_contact", equal springs share the load)
 NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
     "khv": {
         "ratio": (),
@@ -37,22 +37,22 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "profile": (),
         "geometry_quality": (),
         "contact_ratio": (),
-        "load_sharing": ("elastic_contact",),
-        "contact_force_max": ("elastic_contact",),
-        "contact_pressure_max": ("elastic_contact",),
+        "load_sharing": (),
+        "contact_force_max": (),
+        "contact_pressure_max": (),
         "stress_max": ("elastic_contact",),
-        "transmission_error": ("elastic_contact",),
-        "torsional_stiffness": ("elastic_contact",),
-        "bearing_loads": ("elastic_contact",),
-        "bearing_stiffness": ("elastic_contact", "bearing_compliance"),
-        "reactions": ("elastic_contact", "inertia"),
+        "transmission_error": (),
+        "torsional_stiffness": (),
+        "bearing_loads": (),
+        "bearing_stiffness": ("bearing_compliance",),
+        "reactions": ("inertia",),
         "balance": (),
-        "vibration_velocity": ("elastic_contact", "inertia", "casing_on_mounts"),
-        "vibration_zone": ("elastic_contact", "inertia", "casing_on_mounts"),
+        "vibration_velocity": ("inertia", "casing_on_mounts"),
+        "vibration_zone": ("inertia", "casing_on_mounts"),
         "mass": (),
     },
 }
 
 KINDS = tuple(NEEDS)
+ELASTIC_MODELS = ("level0", "strips")
 NOT_WITH_SPRINGS = ("stress_max",)  # rigid discs on springs have no stress field
-AT_POINTS = ("vibration_velocity", "vibration_zone")  # reported at [[casing.points]]

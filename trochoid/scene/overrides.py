@@ -22,7 +22,7 @@ class Override:
 
 def parse(text: str) -> Override | Fault:
     """Return the override that "a.b=value" means, or its fault; the value is TOML, else a plain text."""
-    label = f"--set {text}"
+    label = "--set " + text.replace("\n", "\\n")
     name, equals, value = text.partition("=")
     key = _key(name)
     if not equals or key is None:
@@ -38,7 +38,7 @@ def apply(raw: dict[str, Any], overrides: Iterable[Override]) -> tuple[dict[str,
     """Return a copy of the raw scene with the overrides put in, and what could not be put in."""
     changed, faults = deepcopy(raw), []
     for override in overrides:
-        problem = _put(changed, override.key, override.value)
+        problem = _put(changed, override.key, deepcopy(override.value))
         if problem:
             faults.append(Fault((), problem, override.label))
     return changed, faults

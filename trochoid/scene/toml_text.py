@@ -26,7 +26,8 @@ def _syntax_faults(text: str, source: str, error: Exception) -> list[Fault]:
     found: list[Fault] = []
     problem: Exception | None = error
     while problem is not None and len(found) < _MOST:
-        message, number = _message(problem, len(lines))
+        last = max((i for i, line in enumerate(lines, 1) if line.strip()), default=1)
+        message, number = _message(problem, last)
         if number is None:
             return [*found, Fault((), f"not TOML: {message}", source)]
         if found and not _stands_alone(lines[number - 1], message):
@@ -45,8 +46,8 @@ def _problem(text: str) -> Exception | None:
     return None
 
 
-def _message(error: Exception, count: int) -> tuple[str, int | None]:
-    """Return what is wrong, and the line out of `count` if the parser says it."""
+def _message(error: Exception, last: int) -> tuple[str, int | None]:
+    """Return what is wrong, and the line if the parser says it: `last` for the end of the text."""
     if isinstance(error, RecursionError):
         return "lists or tables nested too deeply", None
     text = str(error)
@@ -54,7 +55,7 @@ def _message(error: Exception, count: int) -> tuple[str, int | None]:
     if place is None:
         return ("a number with too many digits" if "digits" in text else text), None
     message = text[: place.start()]
-    return message[:1].lower() + message[1:], min(int(place.group(1) or count), count)
+    return message[:1].lower() + message[1:], min(int(place.group(1) or last), last)
 
 
 def _stands_alone(line: str, message: str) -> bool:

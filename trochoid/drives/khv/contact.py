@@ -155,7 +155,7 @@ def _bearing(
         return [Family(f"bearing{i}", pair, np.full(count, one), np.zeros(count))]
     law = PowerLaw(iso16281_constant(bearing.roller_length), EXPONENT)
     side = np.full(count, 0.0 if body is None else _seat_for_seat(design, law, one))
-    return [Family(f"bearing{i}", pair, np.full(count, one), side, law)]
+    return [Family(f"bearing{i}", pair, np.full(count, 2 * one), side, law)]
 
 
 def _seat_for_seat(design: Design, law: PowerLaw, one: float) -> float:

@@ -1,4 +1,4 @@
-"""The commented scenes that `trochoid new` prints."""
+"""The commented scenes that `trochoid new` prints, one TOML file for each kind of drive."""
 
 from __future__ import annotations
 
@@ -12,5 +12,5 @@ from trochoid.scene.needs import KINDS
 def starter(kind: str) -> str:
     """Return the commented starter scene for a kind of drive; raises SceneError for an unknown kind."""
     if kind not in KINDS:
-        raise SceneError(f"no drive of kind {quoted(kind)}: this version knows {listed(KINDS)}")
-    return (files("trochoid") / "starter" / f"{kind}.toml").read_text(encoding="utf-8")
+        raise SceneError(f"no drive of kind {quoted(kind)}; this version knows {listed(KINDS)}")
+    return (files(__name__) / f"{kind}.toml").read_text(encoding="utf-8")

@@ -1,0 +1,125 @@
+"""The starter scene documents the whole format, and is a scene."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator
+from typing import Any, get_args
+
+import pytest
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from trochoid.kinematics.errors import SceneError
+from trochoid.scene import EFFECTS, KINDS, NEEDS, Scene, read
+from trochoid.scene.fields import Measure
+from trochoid.scene.form import model_of
+from trochoid.starter import starter
+
+OPTIONAL = re.compile(r"^# (?=[a-z_]+ = )", re.M)
+
+
+def fields(model: type[BaseModel], key: str = "") -> Iterator[tuple[str, FieldInfo]]:
+    """Yield every field of every table as "casing.mounts.stiffness"; a material stands for all."""
+    for name, info in model.model_fields.items():
+        inner = model_of(info.annotation)
+        args = [model_of(arg) for arg in get_args(info.annotation)]
+        named = f"{key}{name}"
+        yield named, info
+        if inner is not None:
+            yield from fields(inner, f"{named}.")
+        elif any(args):
+            middle = ".steel" if name == "materials" else ""
+            yield from fields(next(arg for arg in args if arg), f"{named}{middle}.")
+
+
+def comments(text: str) -> dict[str, str]:
+    """Return the comment above each key, "casing.mounts.stiffness" -> its lines in one."""
+    found: dict[str, str] = {}
+    table, said = "", ""
+    for line in text.splitlines():
+        header, key = re.match(r"\[+([\w.]+)\]", line), re.match(r"(?:# )?([a-z_]+) = ", line)
+        if key:
+            found.setdefault(f"{table}{key[1]}", said.strip())
+            said = ""
+        elif header:
+            found.setdefault(header[1], said.strip())
+            table, said = f"{header[1]}.", ""
+        elif line.startswith("#"):
+            said += line[1:]
+        else:
+            said = ""
+    return found
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("kind", KINDS)
+def test_starter_is_a_scene(kind: str) -> None:
+    """Every kind that a scene may have has a starter, which loads, as it is and with all optional lines."""
+    plain = read(starter(kind))
+    full = read(OPTIONAL.sub("", starter(kind)))
+    assert plain.drive.type == full.drive.type == kind
+    assert plain.ask.quantities == tuple(NEEDS[kind])
+    assert tuple(effect.type for effect in plain.effects) == EFFECTS
+    assert full.accuracy.model is not None
+    assert full.drive.output_pins.pin_radius is not None
+
+
+@pytest.mark.property
+def test_starter_has_every_field_with_a_comment() -> None:
+    """Each field of each model occurs, uncommented or as an optional line, below a comment of its own."""
+    text = starter("khv")
+    said = comments(text)
+    raw = tomllib.loads(OPTIONAL.sub("", text))
+    wanted = [key for key, _ in fields(Scene) if key not in ("materials", "effects")]
+    assert len(wanted) > 70
+    for key in wanted:
+        value: Any = raw
+        for part in key.split("."):
+            value = (value[0] if isinstance(value, list) else value)[part]
+        assert said.get(key) or isinstance(value, dict), key
+
+
+@pytest.mark.property
+def test_starter_tells_the_true_defaults_and_units() -> None:
+    """The default in a comment is that of the model, in the comment's unit; a required field shows none."""
+    said = comments(starter("khv"))
+    for key, info in fields(Scene):
+        if (
+            model_of(info.annotation)
+            or key in ("materials", "effects", "casing")
+            or key.startswith("effects.")
+        ):
+            continue
+        comment = said[key]
+        if info.is_required():
+            assert "default" not in comment or key.startswith("materials."), key
+            continue
+        assert "default" in comment or info.default in (None, ()), key
+        measures = [m for m in info.metadata if isinstance(m, Measure)]
+        if measures and measures[0].family.unit:
+            assert f"[{measures[0].family.unit};" in comment, key
+        if isinstance(info.default, bool):
+            assert f"default {str(info.default).lower()};" in comment, key
+        elif isinstance(info.default, (int, float)):
+            shown = measures[0].family.from_si(info.default) if measures else info.default
+            assert re.search(rf"default {shown:g}[;\]]", comment), (key, comment)
+        elif isinstance(info.default, str):
+            assert f'default "{info.default}"' in comment, key
+        else:
+            assert info.default in (None, (), PydanticUndefined) or isinstance(info.default, tuple), key
+
+
+@pytest.mark.property
+def test_starter_prints_anywhere() -> None:
+    """Plain ASCII: it survives any terminal and redirection."""
+    assert starter("khv").isascii()
+
+
+@pytest.mark.property
+def test_unknown_kind_is_named() -> None:
+    """A kind of a later version is refused with those that exist."""
+    with pytest.raises(SceneError, match='no drive of kind "rv"; this version knows "khv"'):
+        starter("rv")

@@ -1,0 +1,161 @@
+"""The stages of a K-H-V run, each computed when it is first asked for; heavy imports are inside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from trochoid.clock import Clock
+from trochoid.drives.khv.design import Design, design
+from trochoid.kinematics.errors import Infeasible, NotConverged
+from trochoid.scene import Scene
+
+if TYPE_CHECKING:
+    from trochoid.drives.khv.bodies import Level
+    from trochoid.drives.khv.field import DiscState
+    from trochoid.drives.khv.mass import Masses
+    from trochoid.drives.khv.reactions import Reactions
+    from trochoid.drives.khv.series import Series
+    from trochoid.drives.khv.vibration import CasingVibration
+    from trochoid.geometry.mesh import Mesh
+
+COARSEST = 6  # facets per lobe
+FINEST = 48
+RESOLVED_BELOW = 1e-3  # tolerance under which pressure is resolved by strips; level 0 agrees with them to 1e-4
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Contacts over a turn on the finer of two mesh levels, on the coarser one (None for rigid discs), and their levels."""
+
+    fine: Series
+    coarse: Series | None
+    level: Level | None
+
+
+@dataclass(frozen=True)
+class Stages:
+    """What a scene's quantities are made from; every stage is a value, computed once."""
+
+    scene: Scene
+    clock: Clock
+
+    @cached_property
+    def design(self) -> Design:
+        """Members, profile, speeds."""
+        with self.clock.stage("kinematics"):
+            return design(self.scene)
+
+    @cached_property
+    def feasible(self) -> Design:
+        """The design, once its geometry has been found possible; raises Infeasible with every reason."""
+        from trochoid.drives.khv.feasible import faults
+
+        made = self.design
+        with self.clock.stage("geometry"):
+            reasons = faults(made)
+            if reasons:
+                raise Infeasible("\n".join(reasons))
+        return made
+
+    @cached_property
+    def masses(self) -> Masses:
+        """Masses and inertias of the members."""
+        from trochoid.drives.khv.mass import masses
+
+        made = self.feasible
+        with self.clock.stage("mass"):
+            return masses(made)
+
+    @property
+    def rung(self) -> str:
+        """The contact model: named by the scene, or the cheapest that its tolerance allows."""
+        accuracy = self.scene.accuracy
+        if accuracy.model is not None:
+            return accuracy.model
+        if not self.scene.has("elastic_contact"):
+            return "springs"
+        return "strips" if accuracy.tolerance < RESOLVED_BELOW else "level0"
+
+    def meshes(self, facets: int) -> tuple[Mesh, ...]:
+        """Mesh the distinct discs."""
+        made = self.feasible
+        with self.clock.stage("mesh"):
+            from trochoid.drives.khv.bodies import meshes
+
+            return meshes(made, facets)
+
+    def level(self, facets: int) -> Level:
+        """Build the discs on one mesh level."""
+        meshes = self.meshes(facets)
+        with self.clock.stage("bodies"):
+            from trochoid.drives.khv.bodies import build_level
+
+            return build_level(self.design, facets, meshes)
+
+    def series(self, level: Level | None) -> Series:
+        """Solve all positions on a level, or with rigid discs."""
+        made = self.feasible
+        with self.clock.stage("contact"):
+            from trochoid.drives.khv.series import solve_series
+
+            bodies = () if level is None else level.elastic
+            return solve_series(made, self.rung, bodies, self.scene.ask.positions)
+
+    @cached_property
+    def contact(self) -> Solved:
+        """Contacts over a turn, on the coarsest pair of levels whose estimated error meets the tolerance.
+
+        Raises NotConverged when the finest pair does not.
+        """
+        if self.rung == "springs":
+            return Solved(self.series(None), None, None)
+        from trochoid.drives.khv.estimate import worst_error
+
+        given = self.scene.accuracy.facets_per_lobe
+        facets = COARSEST if given is None else max(COARSEST // 2, given // 2)
+        level = self.level(facets)
+        coarse = self.series(level)
+        while True:
+            facets = 2 * facets if given is None or facets != given // 2 else given
+            level = self.level(facets)
+            fine = self.series(level)
+            error, name = worst_error(fine, coarse)
+            if given is not None or error <= self.scene.accuracy.tolerance:
+                return Solved(fine, coarse, level)
+            if 2 * facets > FINEST:
+                raise NotConverged(
+                    f"the error of {name} is estimated at {error:.1e} with {facets} facets per lobe, more than "
+                    f"accuracy.tolerance = {self.scene.accuracy.tolerance:g}; raise the tolerance to {error:.1e}, or name "
+                    "accuracy.facets_per_lobe and accept the error"
+                )
+            coarse = fine
+
+    @cached_property
+    def field(self) -> tuple[DiscState, ...]:
+        """Displacement and stress of every disc at the asked position."""
+        solved = self.contact
+        with self.clock.stage("stress"):
+            from trochoid.drives.khv.field import disc_states
+
+            assert solved.level is not None
+            return disc_states(self.design, self.rung, solved.level, self.scene.ask.stress_position or 0.0)
+
+    @cached_property
+    def reactions(self) -> Reactions:
+        """Bearing reactions over a turn."""
+        solved, masses = self.contact, self.masses
+        with self.clock.stage("reactions"):
+            from trochoid.drives.khv.reactions import reactions
+
+            return reactions(self.design, solved.fine, masses, self.scene.operation.damping_ratio)
+
+    @cached_property
+    def vibration(self) -> CasingVibration:
+        """Vibration velocity of the casing."""
+        found = self.reactions
+        with self.clock.stage("vibration"):
+            from trochoid.drives.khv.vibration import casing_vibration
+
+            return casing_vibration(self.design, found)
