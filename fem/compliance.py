@@ -234,7 +234,9 @@ def place_stations(body: Body, loops: Sequence[Loop]) -> tuple[Stations, tuple[S
         facets.append(arc.length(t[1]) - arc.length(t[0]))
         bend = loop.curve.curvature(t[2])
         constant = np.ptp(bend) <= 1e-9 * np.abs(bend).max()
-        surfaces.append(Surface(loop.name, arc.length(t[2]), arc.total, first, float(jump * bend[0] * constant)))
+        surfaces.append(
+            Surface(loop.name, arc.length(t[2]), arc.total, first, float(jump * bend[0] * constant))
+        )
         first += t.shape[1]
     all_nodes = np.concatenate(nodes)
     rows, columns = np.nonzero(np.isin(mesh.triangles[3:], all_nodes))

@@ -59,7 +59,10 @@ class Seat:
         """Return spline weights at arc-length positions (c,)."""
         template = surface_weights(self.surface, position - self.shift)
         return Weights(
-            template.columns + (self.first - self.surface.first)[:, None], template.values, self.first, template.kink
+            template.columns + (self.first - self.surface.first)[:, None],
+            template.values,
+            self.first,
+            template.kink,
         )
 
 
@@ -97,7 +100,9 @@ class Pair(Protocol):
         ...
 
 
-def arms_of(first: Member, second: Member, centers: tuple[Array, Array], point: Array, normal: Array) -> Array:
+def arms_of(
+    first: Member, second: Member, centers: tuple[Array, Array], point: Array, normal: Array
+) -> Array:
     """Return how fast gaps close (c, k): the first member moving along the normal, the second against it."""
     return _arm(first, centers[0], point, normal) - _arm(second, centers[1], point, normal)
 
@@ -138,7 +143,9 @@ class FlankPair:
         ground = self.flank.modified(self.modification)
         outward = pins - (center + ground.point(t) @ rotation(angle).T)
         normal = ground.normal(t) @ rotation(angle).T
-        if self.modification.rotation:  # the flank is turned about the disc's centre; its normal points at the pin
+        if (
+            self.modification.rotation
+        ):  # the flank is turned about the disc's centre; its normal points at the pin
             normal = outward / np.linalg.norm(outward, axis=1)[:, None]
         if self.classical:
             normal = self.flank.normal(self.parameter) @ rotation(angle).T

@@ -167,6 +167,14 @@ def _coupling(assembly: Assembly, states: Sequence[State]) -> Array:
     return total
 
 
+def seat_coupling(assembly: Assembly, family: Family, motion: Array) -> Array:
+    """Return the compliance (c, c) in m/N of one family's seat: smooth part of the body and of the round sides."""
+    state = family.pair.at(motion)
+    seat = family.pair.seat
+    total = np.diag(family.round_side)
+    return total if seat is None else total + _through(assembly.bodies[seat.body], [state])
+
+
 def _through(body: ElasticBody, states: Sequence[State]) -> Array:
     place = Weights.joined([s.weights for s in states if s.weights is not None])
     return body.compliance.between(place, np.concatenate([s.point for s in states])) / body.width
@@ -208,7 +216,9 @@ def _resolved(
         if family.law is not None:
             groups.append(base.groups[i])
             continue
-        half = HertzLine(family.kernel, state.radius).half_width(np.maximum(force, 1e-6 * force.max(initial=1e-300)))
+        half = HertzLine(family.kernel, state.radius).half_width(
+            np.maximum(force, 1e-6 * force.max(initial=1e-300))
+        )
         width[i] = 2 * REACH * half / STRIPS
         offset = strip_centres() * (REACH * half)[:, None]
         gap = family.pair.gap_along(state, motion, offset)
@@ -230,5 +240,11 @@ def _resolved(
                 strips.max(axis=1) / width[i],
             )
     return Contact(
-        touches, contact.motion, contact.stiffness, contact.imbalance, contact.penetration, iterations + 1, solution
+        touches,
+        contact.motion,
+        contact.stiffness,
+        contact.imbalance,
+        contact.penetration,
+        iterations + 1,
+        solution,
     )

@@ -57,8 +57,8 @@ def hertz_stress(plane_position: Array, half_width: float, load: float) -> Array
     m, n = np.sqrt(m2), np.sign(x) * np.sqrt(n2)
     peak = 2 * load / (np.pi * a)
     share = (z**2 + n2) / (m2 + n2)
-    return -peak / a * np.stack(
-        [m * (1 + share) - 2 * z, m * (1 - share), n * (m2 - z**2) / (m2 + n2)], axis=-1
+    return (
+        -peak / a * np.stack([m * (1 + share) - 2 * z, m * (1 - share), n * (m2 - z**2) / (m2 + n2)], axis=-1)
     )
 
 
@@ -80,12 +80,16 @@ def stress_field(body: Body, presses: Sequence[Press]) -> StressField:
     displacement = answer.copy()
     for press, load, patch in zip(active, loads, patches, strict=True):
         moves[patch.elements] -= patch.border
-        displacement[patch.nodes] += _flamant_blunted(body.plane, mesh.points[patch.nodes], load, press.half_width)
+        displacement[patch.nodes] += _flamant_blunted(
+            body.plane, mesh.points[patch.nodes], load, press.half_width
+        )
     stress = nodal_stress(mesh, body.plane, moves)
     smooth = stress.copy()
     for press, load, patch in zip(active, loads, patches, strict=True):
         places = mesh.points[mesh.triangles.T[patch.elements]]
-        stress[patch.elements] += _closed_form(places.reshape(-1, 2), press, load).reshape(*places.shape[:2], 3)
+        stress[patch.elements] += _closed_form(places.reshape(-1, 2), press, load).reshape(
+            *places.shape[:2], 3
+        )
     nodal = _averaged(body, stress)
     equivalent = von_mises(nodal, body.plane)
     largest, place = float(equivalent.max()), mesh.points[int(np.argmax(equivalent))]
@@ -130,7 +134,9 @@ def _flamant_blunted(plane: Plane, points: Array, load: PointForce, half_width: 
     least = 0.5 * half_width
     direction = np.where((distance > 0)[:, None], position, load.inward)
     direction = direction / np.linalg.norm(direction, axis=1)[:, None]
-    return flamant.displacement(plane, direction * np.maximum(distance, least)[:, None], load.inward, load.force)
+    return flamant.displacement(
+        plane, direction * np.maximum(distance, least)[:, None], load.inward, load.force
+    )
 
 
 def _closed_form(points: Array, press: Press, load: PointForce) -> Array:

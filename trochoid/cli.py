@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -14,6 +14,7 @@ from trochoid import console
 from trochoid.kinematics.errors import SceneError, TrochoidError
 
 if TYPE_CHECKING:
+    from trochoid.plan import Plan
     from trochoid.scene import Scene
 
 FAILED, WRONG = 1, 2
@@ -31,24 +32,32 @@ _ASK = click.option("--ask", metavar="Q1,Q2", help="Compute these quantities ins
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line (sys.argv by default) and return its exit code; nothing but a code ever leaves."""
     try:
-        with console.stoppable():
-            code = commands.main(
-                None if argv is None else list(argv), prog_name="trochoid", standalone_mode=False
-            )
-            sys.stdout.flush()
-            return code if isinstance(code, int) else 0
+        with (
+            console.stoppable(),
+            commands.make_context("trochoid", [*(sys.argv[1:] if argv is None else argv)]) as ctx,
+        ):
+            commands.invoke(ctx)
+            console.flush()
+        return 0
+    except click.exceptions.Exit as done:
+        return done.exit_code
     except click.ClickException as error:
         error.show()
         return error.exit_code
     except SceneError as error:
         return _say(str(error), WRONG)
     except TrochoidError as error:
-        return _say(f"trochoid: {error}", FAILED)
+        return _say("\n".join(f"trochoid: {line}" for line in str(error).splitlines()), FAILED)
     except (KeyboardInterrupt, click.Abort):
         return _say("trochoid: interrupted; previous results are untouched", FAILED)
     except BrokenPipeError:
         console.forget_stdout()
         return FAILED
+    except OSError as error:
+        console.forget_stdout()
+        return _say(
+            f"trochoid: {error.strerror or error}{f': {error.filename}' if error.filename else ''}", FAILED
+        )
     except MemoryError:
         return _say(
             "trochoid: out of memory; ask for fewer positions, or set a larger accuracy.tolerance", FAILED
@@ -119,12 +128,13 @@ def run(scene: str, out: Path | None, overrides: tuple[str, ...], ask: str | Non
     loaded = _load(scene, overrides, ask)
     folder = None if as_json and out is None else out or Path("out") / (Path(scene).stem or "scene")
     from trochoid import results
+    from trochoid.clock import Clock
     from trochoid.run import Run
 
     if folder is not None:
         results.prepare(folder)
     with console.progress() as announce:
-        outcome = Run(loaded, announce).outcome
+        outcome = Run(loaded, Clock(announce)).outcome
         files = () if folder is None else results.write(outcome, folder)
     if as_json:
         click.echo(results.to_json(outcome), nl=False)
@@ -154,7 +164,7 @@ def _load(path: str, overrides: Sequence[str], ask: str | None) -> Scene:
     return load(path, [*overrides, *asked])
 
 
-def _plan_text(path: str, plan: Any) -> str:
+def _plan_text(path: str, plan: Plan) -> str:
     """Return a plan as aligned lines: quantities, effects, the stages with their costs."""
     rows = [("stage", "seconds", "MiB", "why")]
     rows += [
@@ -169,6 +179,7 @@ def _plan_text(path: str, plan: Any) -> str:
         f"{path} is valid",
         f"quantities  {', '.join(plan.quantities)}",
         f"effects     {', '.join(plan.effects) or 'none'}",
+        f"model       {plan.model}",
         "",
         *(f"{a:<{widths[0]}}  {b:>{widths[1]}}  {c:>{widths[2]}}  {why}".rstrip() for a, b, c, why in rows),
         "",

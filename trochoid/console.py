@@ -40,9 +40,15 @@ def stoppable() -> Iterator[None]:
         signal.signal(signal.SIGTERM, before)
 
 
+def flush() -> None:
+    """Write out what is left in the buffer now, where it can still be noticed that nobody reads it."""
+    if sys.stdout is not None:
+        sys.stdout.flush()
+
+
 def forget_stdout() -> None:
     """Send what is left in the buffer nowhere: the interpreter would complain about the closed pipe."""
-    with suppress(OSError, ValueError):
+    with suppress(OSError, ValueError, AttributeError):
         null = os.open(os.devnull, os.O_WRONLY)
         os.dup2(null, sys.stdout.fileno())
         os.close(null)

@@ -10,32 +10,23 @@ import sys
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
 
+import trochoid
 from trochoid.cli import main
 from trochoid.kinematics.errors import Infeasible, NotConverged, SceneError
+from trochoid.results import Outcome, Quantity
+from trochoid.run import Run, plan
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "cycloid.toml")
 Captured = pytest.CaptureFixture[str]
 
 
 def stand_in(monkeypatch: pytest.MonkeyPatch, outcome: Callable[[], Any]) -> None:
-    """Let a run be what `outcome` does."""
-
-    class Run:
-        def __init__(self, scene: object, announce: Callable[[str], None]) -> None:
-            announce("a stage")
-
-        @property
-        def outcome(self) -> Any:
-            return outcome()
-
-    module = ModuleType("trochoid.run")
-    module.Run = Run  # type: ignore[attr-defined]
-    monkeypatch.setitem(sys.modules, "trochoid.run", module)
+    """Let the outcome of a run be what `outcome` does."""
+    monkeypatch.setattr(Run, "outcome", property(lambda run: outcome()))
 
 
 def raising(error: BaseException) -> Callable[[], Any]:
@@ -100,8 +91,6 @@ def test_wrong_command_or_scene_is_2(capsys: Captured, arguments: list[str], sai
 @pytest.mark.property
 def test_new_prints_a_scene_that_loads(capsys: Captured, tmp_path: Path) -> None:
     """`trochoid new khv > scene.toml` gives a file that `load` takes."""
-    import trochoid
-
     assert main(["new", "khv"]) == 0
     out, _ = capsys.readouterr()
     assert tomllib.loads(out)["drive"]["type"] == "khv"
@@ -114,6 +103,7 @@ def test_new_prints_a_scene_that_loads(capsys: Captured, tmp_path: Path) -> None
     ("error", "code", "said"),
     [
         (NotConverged("contact at 12 deg: 50 iterations; try more facets"), 1, "trochoid: contact at 12 deg"),
+        (Infeasible("pins overlap\nholes overlap"), 1, "trochoid: pins overlap\ntrochoid: holes overlap\n"),
         (
             Infeasible("pin_radius 15 mm undercuts; at most 14.2 mm"),
             1,
@@ -139,7 +129,7 @@ def test_failed_run_is_one_line(
     assert main(["run", EXAMPLE, "--out", str(tmp_path)]) == code
     out, err = capsys.readouterr()
     assert err.startswith(said)
-    assert err.count("\n") == (1 if said else 0)
+    assert err.count("\n") == (str(error).count("\n") + 1 if said else 0)
     assert not out
     assert [path.name for path in tmp_path.iterdir()] == ["results.json"]
     assert (tmp_path / "results.json").read_text() == "old"
@@ -165,8 +155,6 @@ def test_json_alone_writes_no_files(
     capsys: Captured, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """--json prints results.json and nothing else; a folder is written only when --out names one."""
-    from trochoid.results import Outcome, Quantity
-
     stand_in(monkeypatch, lambda: Outcome(scene={}, quantities={"ratio": Quantity(-19.0)}))
     monkeypatch.chdir(tmp_path)
     assert main(["run", EXAMPLE, "--json"]) == 0
@@ -182,24 +170,37 @@ def test_json_alone_writes_no_files(
 
 
 @pytest.mark.property
-def test_plan_is_readable(capsys: Captured, monkeypatch: pytest.MonkeyPatch) -> None:
-    """`check` prints quantities, effects, each stage with its cost or a dash, and the sum."""
-    stages = (
-        SimpleNamespace(name="kinematics", why="ratio", seconds=0.01, memory_mib=40.0, needed=True),
-        SimpleNamespace(name="bodies", why="stiffness", seconds=2.5, memory_mib=300.0, needed=True),
-        SimpleNamespace(name="vibration", why="not asked for", seconds=1.0, memory_mib=900.0, needed=False),
-    )
-    module = ModuleType("trochoid.run")
-    module.plan = lambda scene: SimpleNamespace(  # type: ignore[attr-defined]
-        stages=stages, effects=("inertia",), quantities=("ratio", "mass")
-    )
-    monkeypatch.setitem(sys.modules, "trochoid.run", module)
-    assert main(["check", EXAMPLE]) == 0
-    out, _ = capsys.readouterr()
-    assert f"{EXAMPLE} is valid\nquantities  ratio, mass\neffects     inertia\n" in out
-    assert "bodies          2.5  300  stiffness" in out
-    assert "vibration         -    -  not asked for" in out
-    assert out.endswith("about 2.5 s and 300 MiB\n")
+def test_plan_is_readable(capsys: Captured) -> None:
+    """`check` prints quantities, effects and model, each stage with its cost or a dash, and the sum."""
+    assert main(["check", EXAMPLE, "--ask", "ratio"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[:2] == [f"{EXAMPLE} is valid", "quantities  ratio"]
+    assert lines[2].startswith("effects     elastic_contact, pin_compliance, ")
+    start = next(i for i, line in enumerate(lines) if line.startswith("stage "))
+    stages = {line.split()[0]: line.split()[1:3] for line in lines[start + 1 : -2]}
+    planned = plan(trochoid.load(EXAMPLE, ["ask.quantities=['ratio']"])).stages
+    assert list(stages) == [stage.name for stage in planned]
+    assert [name for name, cost in stages.items() if cost != ["-", "-"]] == [
+        s.name for s in planned if s.needed
+    ]
+    assert lines[-1].startswith("about ")
+
+
+@pytest.mark.property
+def test_ratio_is_light(tmp_path: Path) -> None:
+    """`run --ask ratio` computes it, writes its files and imports neither solver, mesher nor plotting."""
+    program = f"""if True:
+        import sys
+        from trochoid.cli import main
+        code = main(["run", {EXAMPLE!r}, "--ask", "ratio", "--out", {str(tmp_path)!r}])
+        heavy = "scipy gmsh skfem pyvista pint plotly xarray meshio matplotlib pandas cvxopt".split()
+        print(code, [name for name in heavy if name in sys.modules])"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "0 []"
+    assert not done.stderr
+    results = json.loads((tmp_path / "results.json").read_text())
+    assert results["quantities"]["ratio"]["value"] == -19.0
+    assert results["scene"]["drive"]["pin_radius"] == 0.005
 
 
 @pytest.mark.property
@@ -219,20 +220,27 @@ def test_closed_pipe_is_quiet() -> None:
 
 
 @pytest.mark.property
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+def test_full_disk_is_one_line() -> None:
+    """What cannot be printed is an error that names the reason."""
+    program = "import sys; from trochoid.cli import main; sys.exit(main(['new', 'khv']))"
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([sys.executable, "-c", program], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stderr) == (1, "trochoid: No space left on device\n")
+
+
+@pytest.mark.property
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_signal_ends_a_run_with_one_line(tmp_path: Path, number: signal.Signals) -> None:
     """Ctrl-C and a termination signal: one line, exit code 1, no files left behind."""
     program = f"""if True:
-        import sys, time, types
-        from pathlib import Path
-        class Run:
-            def __init__(self, scene, announce): pass
-            @property
-            def outcome(self):
-                print("running", flush=True)
-                time.sleep(60)
-        sys.modules["trochoid.run"] = types.SimpleNamespace(Run=Run)
+        import sys, time
         from trochoid.cli import main
+        from trochoid.run import Run
+        def outcome(run):
+            print("running", flush=True)
+            time.sleep(60)
+        Run.outcome = property(outcome)
         sys.exit(main(["run", {EXAMPLE!r}, "--out", {str(tmp_path / "out")!r}]))"""
     process = subprocess.Popen(
         [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True

@@ -71,7 +71,10 @@ def test_sections_and_numbers_are_there(html: str, outcome: Outcome) -> None:
         '101.31 <span class="error">± 0.41</span> <span class="unit">N·m/arcmin</span>',
         "80 mm",
         "none applies: 63 W is below",
-        "6408.7 ± 3.1 N",
+        '<dt>Eccentric disc 1</dt><dd>6408.7 <span class="error">± 3.1</span>',
+        "larger pins cut the flank",
+        "<b>exact</b>",
+        "<td>−78.947 rpm</td>",
         "The drive and its contact forces",
         *(
             f"<h3>{name}</h3>"

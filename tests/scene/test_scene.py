@@ -1,6 +1,8 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -83,3 +85,15 @@ def test_public_names_are_lazy() -> None:
     assert trochoid.Scene is type(trochoid.load(EXAMPLE))
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         trochoid.nothing  # noqa: B018
+
+
+@pytest.mark.property
+def test_loading_is_light() -> None:
+    """Reading a scene imports no solver, no mesher, no plotting, no units, no parser of places."""
+    program = f"""if True:
+        import sys, trochoid
+        trochoid.load({str(EXAMPLE)!r})
+        heavy = "numpy scipy gmsh skfem pyvista pint plotly xarray tree_sitter rich jinja2".split()
+        print([name for name in heavy if name in sys.modules])"""
+    done = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True)
+    assert done.stdout == "[]\n"

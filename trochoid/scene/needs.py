@@ -29,7 +29,7 @@ QUANTITIES = (
     "mass",
 )
 
-# quantity -> effects without which it has no meaning (without "elastic_contact", equal springs share the load)
+# quantity -> effects without which it has no meaning; load sharing without "elastic_contact": equal springs
 NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
     "khv": {
         "ratio": (),

@@ -77,7 +77,11 @@ def assembly(design: Design, rung: str, bodies: tuple[ElasticBody, ...], crank: 
         if motions.lateral:
             families += _bearing(design, motions, disc, i, member, body, crank)
     return Assembly(
-        tuple(families), tuple(bodies[x.body] for x in design.discs) if bodies else (), springs(design, motions), loads(design, motions, crank), follow=rung != "springs"
+        tuple(families),
+        tuple(bodies[x.body] for x in design.discs) if bodies else (),
+        springs(design, motions),
+        loads(design, motions, crank),
+        follow=rung != "springs",
     )
 
 
@@ -110,7 +114,13 @@ def centrifugal(design: Design, crank: Array) -> Array:
 
 
 def _ring(
-    design: Design, motions: Layout, disc: Disc, i: int, member: Member, body: ElasticBody | None, angle: float
+    design: Design,
+    motions: Layout,
+    disc: Disc,
+    i: int,
+    member: Member,
+    body: ElasticBody | None,
+    angle: float,
 ) -> list[Family]:
     flank, count = design.flank, design.flank.pins
     pins = circle(flank.pin_circle_radius, count)
@@ -118,14 +128,29 @@ def _ring(
     start = flank.contact_parameter(np.arange(count), angle) - disc.lead
     seat = _seat(body, i, ["flank"] * count)
     pair = FlankPair(
-        member, ring, flank, design.modification, design.pin_play, pins, start, design.arc, seat, classical=body is None
+        member,
+        ring,
+        flank,
+        design.modification,
+        design.pin_play,
+        pins,
+        start,
+        design.arc,
+        seat,
+        classical=body is None,
     )
     kernel, side = _round(design, count, flank.pin_radius, design.drive.face_width)
     return [Family(f"ring{i}", pair, kernel, side, _classical(design, body))]
 
 
 def _output(
-    design: Design, motions: Layout, disc: Disc, i: int, member: Member, body: ElasticBody | None, crank: float
+    design: Design,
+    motions: Layout,
+    disc: Disc,
+    i: int,
+    member: Member,
+    body: ElasticBody | None,
+    crank: float,
 ) -> list[Family]:
     pins = design.drive.output_pins
     start = design.drive.output_pins.phase
@@ -140,11 +165,17 @@ def _output(
 
 
 def _bearing(
-    design: Design, motions: Layout, disc: Disc, i: int, member: Member, body: ElasticBody | None, crank: float
+    design: Design,
+    motions: Layout,
+    disc: Disc,
+    i: int,
+    member: Member,
+    body: ElasticBody | None,
+    crank: float,
 ) -> list[Family]:
     bearing = design.drive.eccentric_bearing
     count = bearing.rollers
-    cage = Member(member.center, design.cage_angle(crank) , motions.rows("shaft", disc.z))
+    cage = Member(member.center, design.cage_angle(crank), motions.rows("shaft", disc.z))
     seat = _seat(body, i, ["bore"] * count)
     rollers = circle(design.pitch_radius, count)
     pair = HolePair(

@@ -36,7 +36,8 @@ class Disc:
 class Design:
     """The drive as the wings see it, in SI.
 
-    `modification` and the plays are zero unless the scene lists the effect "clearance"; `hole_angles` of each distinct body.
+    `modification` and the plays (in m, of one side) are zero unless the scene lists the effect "clearance"; `hole_angles` of each
+    distinct body.
     """
 
     scene: Scene
@@ -113,7 +114,7 @@ def design(scene: Scene) -> Design:
         Modification(m.equidistant, m.radial, m.rotation) if loose else Modification(),
         d.pin_clearance if loose else 0.0,
         d.output_pins.roller_radius + d.eccentricity + (d.output_pins.hole_clearance if loose else 0.0),
-        d.eccentric_bearing.clearance if loose else 0.0,
+        0.5 * d.eccentric_bearing.clearance if loose else 0.0,  # ISO 5753: the whole play across the bearing
         discs,
         angles,
         train,

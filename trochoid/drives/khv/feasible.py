@@ -46,7 +46,9 @@ def _ring(design: Design) -> tuple[str, ...]:
     limit = d.pin_circle_radius + d.pin_radius
     if d.ring.outer_radius > limit:
         return ()
-    return (f"ring.outer_radius = {_mm(d.ring.outer_radius)}: it must enclose the pins, more than {_mm(limit)}",)
+    return (
+        f"ring.outer_radius = {_mm(d.ring.outer_radius)}: it must enclose the pins, more than {_mm(limit)}",
+    )
 
 
 def _mm(length: float) -> str:

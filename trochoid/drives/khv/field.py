@@ -44,7 +44,9 @@ def _state(design: Design, level: Level, contact: Contact, angle: float, i: int)
     turn = -crank / design.flank.lobes + disc.lead
     center = design.flank.eccentricity * np.array([np.cos(crank), np.sin(crank)])
     mesh = level.meshes[disc.body]
-    field = stress_field(level.bodies[disc.body], presses(design, contact, i, turn + float(contact.motion[3 * i + 2])))
+    field = stress_field(
+        level.bodies[disc.body], presses(design, contact, i, turn + float(contact.motion[3 * i + 2]))
+    )
     turned = rotation(turn)
     points = mesh.points @ turned.T + center
     offset = points - center
@@ -65,6 +67,12 @@ def presses(design: Design, contact: Contact, i: int, turn: float) -> list[Press
             edge = {"ring": "flank", "bearing": "bore"}.get(kind, f"hole{(j + disc.first_hole) % pins}")
             normal = touch.state.normal[j] @ rotation(turn)
             found.append(
-                Press(edge, float(touch.state.parameter[j]), normal, float(touch.force[j]) / width, float(touch.half_width[j]))
+                Press(
+                    edge,
+                    float(touch.state.parameter[j]),
+                    normal,
+                    float(touch.force[j]) / width,
+                    float(touch.half_width[j]),
+                )
             )
     return found

@@ -55,7 +55,9 @@ def masses(design: Design) -> Masses:
         cylinder(d.pin_radius, d.ring.width, rho),
         cylinder(d.output_pins.roller_radius, pack, rho),
         cylinder(d.eccentric_bearing.roller_radius, d.eccentric_bearing.roller_length, rho),
-        _given(_sum(cylinder(d.input_shaft.radius, d.input_shaft.length, rho), eccentrics), d.input_shaft.mass),
+        _given(
+            _sum(cylinder(d.input_shaft.radius, d.input_shaft.length, rho), eccentrics), d.input_shaft.mass
+        ),
         _given(
             cylinder(d.output_flange.outer_radius, d.output_flange.thickness, rho, d.input_shaft.radius),
             d.output_flange.mass,

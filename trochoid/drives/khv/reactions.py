@@ -68,7 +68,12 @@ def reactions(design: Design, series: Series, masses: Masses, damping: float) ->
     casing_rigid = wrench(_on_axis(z), close_turn(inertia)[0])
     residual = _residual(design, rigid, close_turn(ring)[0], casing_rigid, z, size)
     layout = Layout(series.names, True, True)
-    response, elastic, casing, reason = None, None, casing_rigid, "bearings are rigid in this scene: there is nothing to feed back"
+    response, elastic, casing, reason = (
+        None,
+        None,
+        casing_rigid,
+        "bearings are rigid in this scene: there is nothing to feed back",
+    )
     if "shaft.x" in series.names:
         response = _response(design, series, masses, damping, turn)
         elastic = {m: rigid[m] + _change(design, layout, m, response) for m in MEMBERS}
@@ -91,7 +96,9 @@ def reactions(design: Design, series: Series, masses: Masses, damping: float) ->
 def _turned(vectors: Array, angle: Array) -> Array:
     """Turn vectors (n, …, 2) of the ring's frame by the ring's angle (n,) into the fixed frame."""
     c, s = (f(angle).reshape(-1, *(1,) * (vectors.ndim - 2)) for f in (np.cos, np.sin))
-    return np.stack([c * vectors[..., 0] - s * vectors[..., 1], s * vectors[..., 0] + c * vectors[..., 1]], axis=-1)
+    return np.stack(
+        [c * vectors[..., 0] - s * vectors[..., 1], s * vectors[..., 0] + c * vectors[..., 1]], axis=-1
+    )
 
 
 def _bearings(design: Design, member: str) -> Array:

@@ -31,6 +31,11 @@ class Touches:
     normal: Array
 
     @property
+    def touching(self) -> Array:
+        """Number (n, d) of contacts that carry."""
+        return np.asarray((self.force > 0).sum(axis=2))
+
+    @property
     def resultant(self) -> Array:
         """Force (n, d, 2) of the discs on what they touch, N."""
         return np.asarray(np.einsum("ndc,ndci->ndi", self.force, self.normal))

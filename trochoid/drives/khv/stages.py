@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from trochoid.clock import Clock
 from trochoid.drives.khv.design import Design, design
-from trochoid.kinematics.errors import Infeasible, NotConverged
+from trochoid.kinematics.errors import Infeasible, NotConverged, SceneError
 from trochoid.scene import Scene
 
 if TYPE_CHECKING:
@@ -16,13 +17,32 @@ if TYPE_CHECKING:
     from trochoid.drives.khv.field import DiscState
     from trochoid.drives.khv.mass import Masses
     from trochoid.drives.khv.reactions import Reactions
+    from trochoid.drives.khv.seat import SeatStiffness
     from trochoid.drives.khv.series import Series
     from trochoid.drives.khv.vibration import CasingVibration
     from trochoid.geometry.mesh import Mesh
 
 COARSEST = 6  # facets per lobe
 FINEST = 48
-RESOLVED_BELOW = 1e-3  # tolerance under which pressure is resolved by strips; level 0 agrees with them to 1e-4
+RESOLVED_BELOW = (
+    1e-3  # tolerance under which pressure is resolved by strips; level 0 agrees with them to 1e-4
+)
+
+
+T = TypeVar("T")
+U = TypeVar("U")
+
+
+@dataclass(frozen=True, slots=True)
+class Pair(Generic[T]):
+    """A value on the finer mesh level and on the coarser one; None where there is no mesh."""
+
+    fine: T
+    coarse: T | None
+
+    def map(self, make: Callable[[T], U]) -> Pair[U]:
+        """Make something of both."""
+        return Pair(make(self.fine), None if self.coarse is None else make(self.coarse))
 
 
 @dataclass(frozen=True)
@@ -32,6 +52,7 @@ class Solved:
     fine: Series
     coarse: Series | None
     level: Level | None
+    coarse_level: Level | None
 
 
 @dataclass(frozen=True)
@@ -70,13 +91,8 @@ class Stages:
 
     @property
     def rung(self) -> str:
-        """The contact model: named by the scene, or the cheapest that its tolerance allows."""
-        accuracy = self.scene.accuracy
-        if accuracy.model is not None:
-            return accuracy.model
-        if not self.scene.has("elastic_contact"):
-            return "springs"
-        return "strips" if accuracy.tolerance < RESOLVED_BELOW else "level0"
+        """The contact model."""
+        return rung_of(self.scene)
 
     def meshes(self, facets: int) -> tuple[Mesh, ...]:
         """Mesh the distinct discs."""
@@ -110,52 +126,79 @@ class Stages:
         Raises NotConverged when the finest pair does not.
         """
         if self.rung == "springs":
-            return Solved(self.series(None), None, None)
+            return Solved(self.series(None), None, None, None)
         from trochoid.drives.khv.estimate import worst_error
 
         given = self.scene.accuracy.facets_per_lobe
-        facets = COARSEST if given is None else max(COARSEST // 2, given // 2)
+        facets = COARSEST if given is None else max(3, given // 2)
         level = self.level(facets)
         coarse = self.series(level)
         while True:
-            facets = 2 * facets if given is None or facets != given // 2 else given
-            level = self.level(facets)
-            fine = self.series(level)
+            finer = self.level(given or 2 * facets)
+            fine = self.series(finer)
             error, name = worst_error(fine, coarse)
             if given is not None or error <= self.scene.accuracy.tolerance:
-                return Solved(fine, coarse, level)
+                return Solved(fine, coarse, finer, level)
+            facets, level, coarse = 2 * facets, finer, fine
             if 2 * facets > FINEST:
                 raise NotConverged(
                     f"the error of {name} is estimated at {error:.1e} with {facets} facets per lobe, more than "
-                    f"accuracy.tolerance = {self.scene.accuracy.tolerance:g}; raise the tolerance to {error:.1e}, or name "
-                    "accuracy.facets_per_lobe and accept the error"
+                    f"accuracy.tolerance = {self.scene.accuracy.tolerance:g}; raise the tolerance to {error:.1e}, or "
+                    "name accuracy.facets_per_lobe and accept the error"
                 )
-            coarse = fine
 
     @cached_property
-    def field(self) -> tuple[DiscState, ...]:
+    def bearing(self) -> Pair[SeatStiffness]:
+        """Stiffness of the eccentric bearing."""
+        solved = self.contact
+        with self.clock.stage("bearing"):
+            from trochoid.drives.khv.seat import seat_stiffness
+
+            fine = seat_stiffness(self.design, solved.fine, solved.level)
+            if solved.coarse is None:
+                return Pair(fine, None)
+            return Pair(fine, seat_stiffness(self.design, solved.coarse, solved.coarse_level))
+
+    @cached_property
+    def field(self) -> Pair[tuple[DiscState, ...]]:
         """Displacement and stress of every disc at the asked position."""
         solved = self.contact
+        angle = self.scene.ask.stress_position or 0.0
         with self.clock.stage("stress"):
             from trochoid.drives.khv.field import disc_states
 
-            assert solved.level is not None
-            return disc_states(self.design, self.rung, solved.level, self.scene.ask.stress_position or 0.0)
+            if solved.level is None or solved.coarse_level is None:
+                raise SceneError("a rigid disc has no stress: list the effect elastic_contact")
+            return Pair(solved.level, solved.coarse_level).map(
+                lambda level: disc_states(self.design, self.rung, level, angle)
+            )
 
     @cached_property
-    def reactions(self) -> Reactions:
+    def reactions(self) -> Pair[Reactions]:
         """Bearing reactions over a turn."""
         solved, masses = self.contact, self.masses
+        damping = self.scene.operation.damping_ratio
         with self.clock.stage("reactions"):
             from trochoid.drives.khv.reactions import reactions
 
-            return reactions(self.design, solved.fine, masses, self.scene.operation.damping_ratio)
+            return Pair(solved.fine, solved.coarse).map(
+                lambda series: reactions(self.design, series, masses, damping)
+            )
 
     @cached_property
-    def vibration(self) -> CasingVibration:
+    def vibration(self) -> Pair[CasingVibration]:
         """Vibration velocity of the casing."""
         found = self.reactions
         with self.clock.stage("vibration"):
             from trochoid.drives.khv.vibration import casing_vibration
 
-            return casing_vibration(self.design, found)
+            return found.map(lambda reactions: casing_vibration(self.design, reactions))
+
+
+def rung_of(scene: Scene) -> str:
+    """Return the contact model: named by the scene, or the cheapest that its tolerance allows."""
+    if not scene.has("elastic_contact"):
+        return "springs"
+    if scene.accuracy.model is not None:
+        return scene.accuracy.model
+    return "strips" if scene.accuracy.tolerance < RESOLVED_BELOW else "level0"

@@ -1,0 +1,109 @@
+"""Answers from the contacts over a turn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from trochoid.drives.khv.numbers import ARCMIN, number, over_turn
+from trochoid.drives.khv.stages import Stages
+from trochoid.kinematics.types import Array
+from trochoid.results.outcome import Quantity
+
+if TYPE_CHECKING:
+    from trochoid.drives.khv.series import Series, Touches
+
+
+def load_sharing(s: Stages) -> Quantity:
+    """How the torque is shared by the discs, and the load of one disc by its pins."""
+
+    def disc_share(series: Series) -> float:
+        torque = np.abs(_disc_torque(s, series.ring.force, series.crank))
+        return float(_share(torque, torque.sum(axis=1, keepdims=True)).max())
+
+    def pin_share(series: Series) -> float:
+        force = series.ring.force
+        return float(_share(force.max(axis=2), force.sum(axis=2)).max())
+
+    return Quantity(
+        parts={
+            "disc_torque_share_max": over_turn(s, disc_share, ""),
+            "pin_force_share_max": over_turn(s, pin_share, ""),
+            "loaded_pins_mean": over_turn(s, lambda x: float(x.ring.touching.mean()), ""),
+            "loaded_output_pins_mean": over_turn(s, lambda x: float(x.output.touching.mean()), ""),
+        }
+    )
+
+
+def _share(part: Array, whole: Array) -> Array:
+    return np.divide(part, whole, out=np.zeros_like(part), where=whole > 0)
+
+
+def _disc_torque(s: Stages, force: Array, crank: Array) -> Array:
+    """Torque (n, d) of the ring pins on each disc about its centre, N·m, from forces (n, d, p)."""
+    flank = s.design.flank
+    angle = crank[:, None, None] + np.array([d.crank for d in s.design.discs])[None, :, None]
+    t = flank.contact_parameter(np.arange(flank.pins)[None, None, :], angle)
+    return np.asarray((force * flank.lever(t)).sum(axis=2))
+
+
+def contact_force_max(s: Stages) -> Quantity:
+    """Largest force of each kind of contact."""
+    return _largest(s, lambda touches: touches.force, 1.0, "N")
+
+
+def contact_pressure_max(s: Stages) -> Quantity:
+    """Largest contact pressure of each kind of contact."""
+    return _largest(s, lambda touches: touches.pressure, 1e-6, "MPa")
+
+
+def _largest(s: Stages, get: Callable[[Touches], Array], scale: float, unit: str) -> Quantity:
+    parts = {
+        "ring_pins": over_turn(s, lambda x: float(get(x.ring).max()) * scale, unit),
+        "output_pins": over_turn(s, lambda x: float(get(x.output).max()) * scale, unit),
+    }
+    if s.contact.fine.bearing is not None:
+        parts["bearing_rollers"] = over_turn(s, lambda x: _rollers(x, get) * scale, unit)
+    return Quantity(parts=parts)
+
+
+def _rollers(series: Series, get: Callable[[Touches], Array]) -> float:
+    return 0.0 if series.bearing is None else float(get(series.bearing).max())
+
+
+def stress_max(s: Stages) -> Quantity:
+    """Largest von Mises stress of the discs at the stress position, in the field or below a contact."""
+    below = s.field.map(lambda discs: 1e-6 * max(disc.field.largest for disc in discs))
+    field = s.field.map(lambda discs: 1e-6 * max(float(disc.field.von_mises.max()) for disc in discs))
+    angle = float(np.degrees(s.field.fine[0].angle))
+    return Quantity(
+        parts={
+            "below_contact": number(s, below, "MPa"),
+            "in_the_field": number(s, field, "MPa"),
+        },
+        note=f"at input angle {angle:g}°; below the contacts Hertz's stress in closed form is added to the finite-element field; "
+        "in the field: the largest at a node of the mesh",
+    )
+
+
+def transmission_error(s: Stages) -> Quantity:
+    """Loaded transmission error of the output over a turn, and its mean, the wind-up."""
+    return Quantity(
+        parts={
+            "peak_to_peak": over_turn(s, lambda x: float(np.ptp(x.twist[:-1])) / ARCMIN * 60, "arcsec"),
+            "wind_up": over_turn(s, lambda x: float(x.twist[:-1].mean()) / ARCMIN, "arcmin"),
+        }
+    )
+
+
+def torsional_stiffness(s: Stages) -> Quantity:
+    """Torque per angle at the output with the input held, mean over a turn: the tangent at the load."""
+    # at the driven member: the flange, or the ring, whose torque is larger and whose turning then is smaller
+    leverage = s.design.flank.pins / s.design.flank.lobes if s.design.drive.fixed == "output" else 1.0
+    scale = ARCMIN * leverage**2
+    answer = over_turn(s, lambda x: float(x.torsional_stiffness[:-1].mean()) * scale, "N*m/arcmin")
+    note = "tangent at the operating torque, mean over a turn"
+    return replace(answer, note=note if answer.value else "nothing touches: the drive does not resist")

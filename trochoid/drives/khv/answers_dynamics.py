@@ -1,0 +1,120 @@
+"""Answers about bearings, their reactions, and the casing's vibration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from trochoid.drives.khv.numbers import number, over_turn
+from trochoid.drives.khv.reactions import Reactions
+from trochoid.drives.khv.series import Series
+from trochoid.drives.khv.stages import Pair, Stages
+from trochoid.drives.khv.vibration import CasingVibration
+from trochoid.kinematics.types import Array
+from trochoid.results.outcome import Quantity
+
+STIFFNESS_ENTRIES = (
+    ("k_xx", (0, 0), 1e-6, "N/um"),
+    ("k_yy", (1, 1), 1e-6, "N/um"),
+    ("k_xy", (0, 1), 1e-6, "N/um"),
+    ("k_tilt_xx", (2, 2), 1.0, "N*m/rad"),
+    ("k_tilt_yy", (3, 3), 1.0, "N*m/rad"),
+    ("k_tilt_xy", (2, 3), 1.0, "N*m/rad"),
+)
+STATISTICS: dict[str, Callable[[Array], float]] = {
+    "mean": lambda a: float(a.mean()),
+    "min": lambda a: float(a.min()),
+    "max": lambda a: float(a.max()),
+}
+
+
+def bearing_loads(s: Stages) -> Quantity:
+    """Load of each eccentric bearing over a turn, and of the most loaded roller."""
+    parts: dict[str, Quantity] = {}
+    for i in range(len(s.design.discs)):
+        load = Pair(s.contact.fine, s.contact.coarse).map(_eccentric_load(s, i))
+        for name in ("mean", "max"):
+            parts[f"eccentric_{i + 1}_{name}"] = number(s, load.map(STATISTICS[name]), "N")
+    if s.contact.fine.bearing is not None:
+        parts["roller_max"] = over_turn(
+            s, lambda x: 0.0 if x.bearing is None else float(x.bearing.force.max()), "N"
+        )
+    return Quantity(parts=parts)
+
+
+def _eccentric_load(s: Stages, i: int) -> Callable[[Series], Array]:
+    """Return the force (n,) of disc i on its eccentric: what ring, output pins and inertia leave."""
+    from trochoid.drives.khv.contact import centrifugal
+
+    def load(series: Series) -> Array:
+        inertia = centrifugal(s.design, series.crank)[:, i]
+        rest = inertia - series.ring.resultant[:, i] - series.output.resultant[:, i]
+        return np.asarray(np.linalg.norm(rest[:-1], axis=-1))
+
+    return load
+
+
+def bearing_stiffness(s: Stages) -> Quantity:
+    """Stiffness of the first eccentric bearing under its load, on a rigid ring and on the disc's elastic bore."""
+    parts = {"rigid_ring": _entries(s, s.bearing.map(lambda x: x.rigid))}
+    if s.bearing.fine.elastic is not None:
+        parts["elastic_seat"] = _entries(
+            s, s.bearing.map(lambda x: x.rigid if x.elastic is None else x.elastic)
+        )
+    return Quantity(parts=parts, note="first disc at the first position; rollers by ISO/TS 16281")
+
+
+def _entries(s: Stages, matrix: Pair[Array]) -> Mapping[str, Quantity]:
+    def entry(ij: tuple[int, int], scale: float) -> Callable[[Array], float]:
+        return lambda k: scale * float(k[ij])
+
+    return {
+        name: number(s, matrix.map(entry(ij, scale)), unit) for name, ij, scale, unit in STIFFNESS_ENTRIES
+    }
+
+
+def reactions(s: Stages) -> Quantity:
+    """Reactions of the bearings of shaft and flange over a turn, by model."""
+    parts: dict[str, Mapping[str, Quantity]] = {}
+    for model in ("rigid", "elastic"):
+        if getattr(s.reactions.fine, model) is None:
+            continue
+        for member in ("shaft", "output"):
+            for b, place in enumerate("AB"):
+                size = s.reactions.map(_size(model, member, b))
+                parts[f"{member}_{place}_{model}"] = {
+                    name: number(s, size.map(statistic), "N", model) for name, statistic in STATISTICS.items()
+                }
+    return Quantity(parts=parts, note=s.reactions.fine.reason)
+
+
+def _size(model: str, member: str, bearing: int) -> Callable[[Reactions], Array]:
+    return lambda found: np.asarray(np.linalg.norm(getattr(found, model)[member][:, bearing], axis=-1))
+
+
+def vibration_velocity(s: Stages) -> Quantity:
+    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; the rigid load's worst one beside it."""
+    found = s.vibration
+    model = "rigid" if s.reactions.fine.response is None else "elastic"
+    parts: dict[str, Mapping[str, Quantity]] = {}
+    for i, point in enumerate(found.fine.elastic.points):
+        entries = {axis: number(s, found.map(_velocity(i, j)), "mm/s", model) for j, axis in enumerate("xyz")}
+        entries["worst"] = number(s, found.map(_velocity(i, None)), "mm/s", model)
+        entries["worst_rigid"] = number(s, found.map(_velocity(i, None, rigid=True)), "mm/s", "rigid")
+        parts[point.name] = entries
+    return Quantity(parts=parts, note=f"lines up to {found.fine.elastic.resolved_to:.0f} Hz are resolved")
+
+
+def _velocity(point: int, axis: int | None, rigid: bool = False) -> Callable[[CasingVibration], float]:
+    def get(found: CasingVibration) -> float:
+        rms = (found.rigid if rigid else found.elastic).rms[point]
+        return 1e3 * float(rms.max() if axis is None else rms[axis])
+
+    return get
+
+
+def vibration_zone(s: Stages) -> Quantity:
+    """Zone by the standard that applies, or the statement that none does."""
+    zone = s.vibration.fine.zone
+    return Quantity(zone.letter or "none applies", "", None, zone.standard, note=zone.reason)

@@ -1,0 +1,127 @@
+"""Answers from kinematics, geometry and masses alone."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from trochoid.drives.khv.numbers import RPM, exact, over_turn
+from trochoid.drives.khv.stages import Stages
+from trochoid.results.outcome import Quantity
+
+
+def ratio(s: Stages) -> Quantity:
+    """Input speed over output speed, with sign."""
+    return Quantity(float(s.design.speeds.ratio), "", 0.0, "exact")
+
+
+def member_speeds(s: Stages) -> Quantity:
+    """Absolute speeds of all members."""
+    speed = s.scene.operation.input_speed / RPM
+    members = {name: float(value) * speed for name, value in s.design.speeds.members.items()}
+    return Quantity(parts={name: Quantity(value, "rpm", 0.0, "exact") for name, value in members.items()})
+
+
+def profile(s: Stages) -> Quantity:
+    """Numbers of the tooth profile."""
+    flank = s.feasible.flank
+    t = np.linspace(0, np.pi / flank.lobes, 2001)
+    bend = flank.curvature(t)
+    values = {
+        "trochoid_ratio": (flank.trochoid_ratio, ""),
+        "pitch_radius_disc": (1e3 * flank.eccentricity * flank.lobes, "mm"),
+        "pitch_radius_pins": (1e3 * flank.eccentricity * flank.pins, "mm"),
+        "crest_radius": (1e3 * (flank.pin_circle_radius + flank.eccentricity - flank.pin_radius), "mm"),
+        "root_radius": (1e3 * (flank.pin_circle_radius - flank.eccentricity - flank.pin_radius), "mm"),
+        "pin_radius_undercut_limit": (1e3 * flank.undercut_radius, "mm"),
+        "least_convex_radius": (1e3 / float(bend.max()), "mm"),
+        "least_concave_radius": (-1e3 / float(bend.min()), "mm"),
+    }
+    return exact(values)
+
+
+def geometry_quality(s: Stages) -> Quantity:
+    """Margins of the geometry: what is left before the drive cannot be made."""
+    from trochoid.geometry.check import walls
+
+    d, flank = s.feasible.drive, s.design.flank
+    wall = walls(
+        flank,
+        d.bore_radius,
+        d.output_pins.count,
+        d.output_pins.circle_radius,
+        s.design.hole_radius,
+        s.design.hole_angles[0],
+    )
+    between = flank.pin_circle_radius * np.sin(np.pi / flank.pins) - flank.pin_radius
+    return exact(
+        {
+            "undercut_margin": (1e3 * (flank.undercut_radius - flank.pin_radius), "mm"),
+            "gap_between_pins": (2e3 * float(between), "mm"),
+            "wall_hole_flank": (1e3 * wall.hole_to_flank, "mm"),
+            "wall_hole_bore": (1e3 * wall.hole_to_bore, "mm"),
+            "wall_hole_hole": (1e3 * wall.hole_to_hole, "mm"),
+            "distinct_discs": (float(len(s.design.hole_angles)), ""),
+        }
+    )
+
+
+def contact_ratio(s: Stages) -> Quantity:
+    """Pins in mesh by geometry, under load when contacts are solved, and the pressure angles."""
+    from trochoid.kinematics.meshing import contact_ratio as geometric
+
+    found = geometric(s.feasible.flank)
+    parts = {
+        "geometric": Quantity(found.mean, "", 0.0, "exact"),
+        "pressure_angle_min": Quantity(float(np.degrees(found.pressure_angle_min)), "deg", 0.0, "exact"),
+        "pressure_angle_mean": Quantity(float(np.degrees(found.pressure_angle_mean)), "deg", 0.0, "exact"),
+    }
+    if "contact" in stages_asked(s):
+        parts["loaded_mean"] = over_turn(s, lambda x: float(x.ring.touching.mean()), "")
+        parts["loaded_min"] = over_turn(s, lambda x: float(x.ring.touching.min()), "")
+        parts["loaded_max"] = over_turn(s, lambda x: float(x.ring.touching.max()), "")
+    return Quantity(parts=parts)
+
+
+def balance(s: Stages) -> Quantity:
+    """What the eccentric discs leave unbalanced: force and couple on the casing."""
+    made, masses = s.feasible, s.masses
+    force = made.flank.eccentricity * made.crank_speed**2 * masses.disc.mass
+    angles = np.array([d.crank for d in made.discs])
+    vectors = force * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    z = np.array([d.z for d in made.discs])
+    return Quantity(
+        parts={
+            "inertia_force_of_a_disc": Quantity(force, "N", None, "exact"),
+            "unbalanced_force": Quantity(float(np.linalg.norm(vectors.sum(axis=0))), "N", None, "exact"),
+            "unbalanced_couple": Quantity(
+                float(np.linalg.norm((vectors * z[:, None]).sum(axis=0))), "N*m", None, "exact"
+            ),
+        }
+    )
+
+
+def mass(s: Stages) -> Quantity:
+    """Masses of all members, and the specific mass in kg per N·m of output torque."""
+    from trochoid.drives.khv.mass import total_mass
+
+    parts = total_mass(s.feasible, s.masses)
+    casing = s.scene.casing.mass if s.scene.casing is not None else 0.0
+    whole = sum(parts.values()) + casing
+    torque = s.scene.operation.output_torque
+    entries = {name: Quantity(value, "kg", None, "exact") for name, value in parts.items()}
+    entries["casing"] = Quantity(casing, "kg", None, "given")
+    entries["total"] = Quantity(whole, "kg", None, "exact")
+    note = "specific mass needs a torque above zero"
+    if torque > 0:
+        note = "the textbook's range of the specific mass is 0.02 … 0.05 kg/(N·m)"
+        entries["specific"] = Quantity(whole / torque, "kg/(N*m)", None, "exact")
+    return Quantity(parts=entries, note=note)
+
+
+def stages_asked(s: Stages) -> tuple[str, ...]:
+    """Return the stages that the scene's other quantities need anyway."""
+    from trochoid.drives.khv.plan import STAGES_OF
+
+    return tuple(
+        stage for name in s.scene.ask.quantities if name != "contact_ratio" for stage in STAGES_OF[name]
+    )

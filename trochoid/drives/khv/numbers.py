@@ -1,0 +1,36 @@
+"""Numbers with the error that two mesh levels suggest, shared by all answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from trochoid.drives.khv.estimate import scalar_error
+from trochoid.drives.khv.stages import Pair, Stages
+from trochoid.results.outcome import Quantity
+
+if TYPE_CHECKING:
+    from trochoid.drives.khv.series import Series
+
+ARCMIN = np.pi / 180 / 60
+RPM = 2 * np.pi / 60
+
+
+def exact(values: Mapping[str, tuple[float, str]]) -> Quantity:
+    """Return parts that rest on closed forms."""
+    return Quantity(
+        parts={name: Quantity(value, unit, 0.0, "exact") for name, (value, unit) in values.items()}
+    )
+
+
+def number(s: Stages, pair: Pair[float], unit: str, model: str | None = None) -> Quantity:
+    """Return a number, its error, and the model that gave it (the contact model unless named)."""
+    error = None if pair.coarse is None else scalar_error(pair.fine, pair.coarse)
+    return Quantity(pair.fine, unit, error, model or s.rung)
+
+
+def over_turn(s: Stages, get: Callable[[Series], float], unit: str) -> Quantity:
+    """Return a number of the contacts over a turn."""
+    return number(s, Pair(s.contact.fine, s.contact.coarse).map(get), unit)

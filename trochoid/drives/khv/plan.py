@@ -1,0 +1,73 @@
+"""Which stages each quantity needs, and what they cost before anything runs."""
+
+from __future__ import annotations
+
+from trochoid.plan import Plan, PlannedStage
+from trochoid.scene import Scene
+
+_CONTACT = ("kinematics", "geometry", "mesh", "bodies", "contact")
+
+STAGES_OF: dict[str, tuple[str, ...]] = {
+    "ratio": ("kinematics",),
+    "member_speeds": ("kinematics",),
+    "profile": ("kinematics", "geometry"),
+    "geometry_quality": ("kinematics", "geometry"),
+    "contact_ratio": ("kinematics", "geometry"),
+    "load_sharing": _CONTACT,
+    "contact_force_max": _CONTACT,
+    "contact_pressure_max": _CONTACT,
+    "stress_max": (*_CONTACT, "stress"),
+    "transmission_error": _CONTACT,
+    "torsional_stiffness": _CONTACT,
+    "bearing_loads": _CONTACT,
+    "bearing_stiffness": (*_CONTACT, "bearing"),
+    "reactions": (*_CONTACT, "mass", "reactions"),
+    "balance": ("kinematics", "geometry", "mass"),
+    "vibration_velocity": (*_CONTACT, "mass", "reactions", "vibration"),
+    "vibration_zone": (*_CONTACT, "mass", "reactions", "vibration"),
+    "mass": ("kinematics", "geometry", "mass"),
+}
+
+WHY = {
+    "kinematics": "members, speeds, profile",
+    "geometry": "can it be made: undercut, walls, collisions",
+    "mass": "masses and inertias from exact outlines",
+    "mesh": "second-order triangles, on two levels for the error",
+    "bodies": "factor of each distinct disc, its compliance at every facet",
+    "contact": "all contacts together at every position, on both levels",
+    "stress": "von Mises field at one position",
+    "bearing": "stiffness of the eccentric bearing under its load",
+    "reactions": "bearing reactions over a turn, rigid and elastic",
+    "vibration": "velocity of the casing on its mounts",
+}
+
+POSITION = {
+    "springs": 5e-3,
+    "level0": 15e-3,
+    "strips": 25e-3,
+}  # seconds for 20 pins, 8 holes, 16 rollers and two discs
+
+
+def plan(scene: Scene, rung: str, facets: int) -> Plan:
+    """Return what a run would do; `facets` per lobe of the coarser of the two levels it would start with."""
+    needed = {stage for name in scene.ask.quantities for stage in STAGES_OF[name]}
+    if rung == "springs":
+        needed -= {"mesh", "bodies"}
+    d = scene.drive
+    stations = facets * (d.lobes + 0.6 * d.output_pins.count + 2) * (1 if rung != "springs" else 0)
+    contacts = d.discs * (d.pins + d.output_pins.count + d.eccentric_bearing.rollers) / 88
+    positions = scene.ask.positions + 1
+    seconds = {
+        "mesh": 1e-4 * stations + 0.15,
+        "bodies": 3e-3 * stations + 1.2e-6 * stations**2,
+        "contact": 2 * positions * contacts * POSITION[rung],
+        "stress": 0.1 * d.discs,
+        "reactions": 0.03,
+        "vibration": 0.02,
+    }
+    memory = {"bodies": 120 + 4e-4 * stations**2, "contact": 150 + 4e-4 * stations**2}
+    stages = tuple(
+        PlannedStage(name, why, seconds.get(name, 0.01), memory.get(name, 100.0), name in needed)
+        for name, why in WHY.items()
+    )
+    return Plan(stages, tuple(e.type for e in scene.effects), scene.ask.quantities, rung)
