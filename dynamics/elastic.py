@@ -1,7 +1,7 @@
 """Stiffness-aware motion: what the inertia of elastic members adds to their quasi-static motion.
 
 Members that yield under the rotating loads do not stay on their rigid paths.  With q the quasi-static
-motion, the motion q + y obeys M (q̈ + ÿ) + C ẏ + K̄ y = 0: the moving mass adds inertia forces, and where a
+motion, the motion q + y obeys M (q̈ + ÿ) + C ẏ + K(φ) y = 0: the moving mass adds inertia forces, and where a
 harmonic comes near a natural frequency it is amplified.  That is the whole difference between rigid and
 elastic reactions; it falls with 1/K.  Coordinates lie along axes that do not turn.  C is modal; each spring
 takes the part of it that belongs to its share of K̄, y + T ẏ with C = K̄ T, so that forces and inertia
@@ -17,7 +17,7 @@ import numpy as np
 
 from trochoid.dynamics.modes import FrequencyResponse, natural_modes
 from trochoid.dynamics.spectrum import harmonics, synthesize
-from trochoid.kinematics.errors import TrochoidError
+from trochoid.kinematics.errors import NotConverged, TrochoidError
 from trochoid.kinematics.types import Array, ComplexArray, frozen
 
 
@@ -36,10 +36,10 @@ class Response:
     """Motion of elastic members over one record of n_pos positions, n coordinates.
 
     `motion` = q + y, `correction` = y, `spring_correction` = y + T ẏ (deflection whose springs give the
-    force with damping), `acceleration` = q̈ + ÿ and `inertia` = −M (q̈ + ÿ) = K̄ (y + T ẏ), all (n_pos, n).
+    force with damping), `acceleration` = q̈ + ÿ and `inertia` = −M (q̈ + ÿ) = K y + K̄ T ẏ, all (n_pos, n).
     `frequencies` (nh,) Hz and peak `amplitudes` (nh, n) of the motion for harmonics 1…nh,
     `natural_frequencies` (n,) Hz.  `stiffness_variation` is the largest relative departure of K(φ) from its
-    mean, `variation_error` the relative size of the first-order answer to it: how much the mean hides.
+    mean, `variation_effect` how much of the motion y comes from it, relative.
     """
 
     motion: Array
@@ -52,7 +52,7 @@ class Response:
     natural_frequencies: Array
     resonance: Resonance | None
     stiffness_variation: float
-    variation_error: float
+    variation_effect: float
     warnings: tuple[str, ...]
 
 
@@ -61,9 +61,10 @@ def respond(
 ) -> Response:
     """Return the response to a quasi-static `motion` (n_pos, n), periodic with the angular `speed` in rad/s.
 
-    `mass` (n, n); `stiffness` (n, n) or (n_pos, n, n), of which the mean is used; `damping_ratio` of every
-    mode.  Free modes are allowed: no net force acts on them, so their harmonics vanish.  Raises for speed ≤
-    0, fewer than 3 positions, bad matrices, and resonance without damping.
+    `mass` (n, n); `stiffness` (n, n) or (n_pos, n, n); `damping_ratio` of every mode of the mean stiffness.
+    Free modes are allowed: no net force acts on them, so their harmonics vanish.  Raises for speed ≤ 0, fewer
+    than 3 positions, bad matrices, and resonance without damping; NotConverged where a stiffness that varies
+    excites itself.
     """
     q, stiffnesses = _checked(motion, stiffness, speed, damping_ratio)
     mean = stiffnesses.mean(axis=0)
@@ -71,11 +72,11 @@ def respond(
     still = harmonics(q)[1:]
     order: Array = speed * np.arange(1.0, len(still) + 1.0)
     answer = FrequencyResponse(basis, order, damping_ratio)
-    modal = answer.to((order[:, None] ** 2) * (still @ np.asarray(mass)))
-    y = modal @ basis.shapes.T
-    springs = (modal * answer.spring_factor()) @ basis.shapes.T
-    correction = _series(y, len(q))
-    variation, error = _variation(answer, stiffnesses, correction)
+    first = _series(answer.to((order[:, None] ** 2) * (still @ np.asarray(mass))) @ basis.shapes.T, len(q))
+    correction = first if len(stiffnesses) == 1 else _varying(answer, stiffnesses - mean, first)
+    lines = harmonics(correction)
+    y = lines[1:]
+    springs = ((y @ np.asarray(mass) @ basis.shapes) * answer.spring_factor()) @ basis.shapes.T
     resonance = _strongest(answer, still, np.asarray(mass))
     amplitudes = np.array(still + y)
     amplitudes.setflags(write=False)
@@ -83,16 +84,16 @@ def respond(
     return Response(
         motion=frozen(q + correction),
         correction=frozen(correction),
-        spring_correction=frozen(_series(springs, len(q))),
+        spring_correction=frozen(lines[0].real + _series(springs, len(q))),
         acceleration=frozen(acceleration),
         inertia=frozen(-acceleration @ np.asarray(mass)),
         frequencies=frozen(order / (2.0 * np.pi)),
         amplitudes=amplitudes,
         natural_frequencies=basis.hertz,
         resonance=resonance,
-        stiffness_variation=variation,
-        variation_error=error,
-        warnings=_warnings(resonance, error),
+        stiffness_variation=_departure(stiffnesses),
+        variation_effect=_relative(correction - first, correction, mean),
+        warnings=_warnings(resonance),
     )
 
 
@@ -132,20 +133,46 @@ def _series(amplitudes: ComplexArray, positions: int) -> Array:
     return synthesize(np.concatenate([np.zeros_like(amplitudes[:1]), amplitudes]), positions)
 
 
-def _variation(answer: FrequencyResponse, stiffnesses: Array, correction: Array) -> tuple[float, float]:
-    """Return the relative variation of K(φ) and of the motion it would add, in the energy of the mean."""
-    if len(stiffnesses) == 1 or not correction.any():
-        return 0.0, 0.0
+def _varying(answer: FrequencyResponse, change: Array, first: Array) -> Array:
+    """Solve y = y₁ − G[(K(φ) − K̄) y], with y₁ (n_pos, n) and G the answers of the mean stiffness."""
+    from scipy.sparse.linalg import LinearOperator, gmres
+
+    shapes, natural = answer.modes.shapes, answer.modes.angular_frequencies
+    held = np.divide(1.0, natural**2, out=np.zeros_like(natural), where=natural > 0.0)
+
+    def moved(flat: Array) -> Array:
+        y = flat.reshape(first.shape)
+        lines = harmonics(np.einsum("pij,pj->pi", change, y))
+        modal = np.concatenate([(lines[:1] @ shapes) * held, answer.to(lines[1:])])
+        return (y + synthesize(modal @ shapes.T, len(y))).ravel()
+
+    size = first.size
+    scale = float(np.abs(first).max(initial=0.0))
+    if scale == 0.0:
+        return first
+    operator = LinearOperator((size, size), matvec=moved, dtype=np.float64)
+    y, failed = gmres(operator, first.ravel() / scale, rtol=1e-11, restart=min(size, 100), maxiter=5)
+    if failed:
+        raise NotConverged(
+            "the stiffness varies so strongly over a turn that no steady motion was found (parametric resonance): "
+            "raise operation.damping_ratio or change the speed"
+        )
+    return scale * y.reshape(first.shape)
+
+
+def _departure(stiffnesses: Array) -> float:
+    """Return the largest departure of K(φ) from its mean, relative to the mean's diagonal."""
     mean = stiffnesses.mean(axis=0)
     size = np.sqrt(np.abs(np.diag(mean)))
     scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)
-    change = stiffnesses - mean
-    scaled = np.outer(scale, scale)
-    variation = float(np.linalg.norm(change * scaled, ord=2, axis=(1, 2)).max())
-    extra = harmonics(-np.einsum("pij,pj->pi", change, correction))[1:]
-    added = _series(answer.to(extra) @ answer.modes.shapes.T, len(correction))
-    whole = float(np.linalg.norm(correction * size))
-    return variation, float(np.linalg.norm(added * size)) / whole if whole > 0.0 else 0.0
+    return float(np.linalg.norm((stiffnesses - mean) * np.outer(scale, scale), ord=2, axis=(1, 2)).max())
+
+
+def _relative(part: Array, whole: Array, mean: Array) -> float:
+    """Return the size of one motion over another's, coordinates weighted by their stiffness."""
+    size = np.sqrt(np.abs(np.diag(mean)))
+    reach = float(np.linalg.norm(whole * size))
+    return float(np.linalg.norm(part * size)) / reach if reach > 0.0 else 0.0
 
 
 def _strongest(answer: FrequencyResponse, still: ComplexArray, mass: Array) -> Resonance | None:
@@ -162,17 +189,12 @@ def _strongest(answer: FrequencyResponse, still: ComplexArray, mass: Array) -> R
     return Resonance(int(line) + 1, float(hertz), float(answer.modes.hertz[mode]), float(factor[line, mode]))
 
 
-def _warnings(resonance: Resonance | None, error: float) -> tuple[str, ...]:
+def _warnings(resonance: Resonance | None) -> tuple[str, ...]:
     said = []
     if resonance is not None and resonance.factor > 5.0:
         said.append(
             f"near resonance: harmonic {resonance.harmonic} ({resonance.frequency:.4g} Hz) meets the natural "
             f"frequency {resonance.natural_frequency:.4g} Hz and is multiplied by {resonance.factor:.3g}; "
             f"the result rests on the damping ratio"
-        )
-    if error > 0.3:
-        said.append(
-            f"the stiffness varies so much over a turn that its mean hides about {100.0 * error:.0f} % of "
-            f"the dynamic motion"
         )
     return tuple(said)

@@ -71,7 +71,8 @@ class State:
     """A pair at given motions, for its c contacts.
 
     `gap` (c,) in m, `arms` (c, k) closing per unit motion, `point` (c, 2) and `normal` (c, 2) (out of the first member) in the fixed
-    frame, `parameter` (c,) on the curve, `radius` (c,) combined radius of curvature in m, `weights` of the seat (None: rigid).
+    frame, `parameter` (c,) on the curve, `radius` (c,) combined radius of curvature and `place` (c,)
+    arc length on the seat (None: rigid), both in m.
     """
 
     gap: Array
@@ -80,7 +81,7 @@ class State:
     normal: Array
     parameter: Array
     radius: Array
-    weights: Weights | None
+    place: Array | None
 
 
 class Pair(Protocol):
@@ -158,7 +159,7 @@ class FlankPair:
             normal,
             t,
             1 / bend,
-            self.seat.weights(self.arc.length(t)) if self.seat else None,
+            self.arc.length(t) if self.seat else None,
         )
 
     def gap_along(self, state: State, motion: Array, offset: Array) -> Array:
@@ -203,7 +204,7 @@ class HolePair:
             normal,
             t,
             np.full(len(t), 1 / (1 / self.roller_radius - 1 / self.hole_radius)),
-            self.seat.weights(self.hole_radius * t) if self.seat else None,
+            self.hole_radius * t if self.seat else None,
         )
 
     def gap_along(self, state: State, motion: Array, offset: Array) -> Array:

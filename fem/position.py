@@ -9,19 +9,20 @@ the touching contacts afterwards, on the same coupling.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from trochoid.fem import complementarity as lcp
 from trochoid.fem.compliance import Compliance, Weights
 from trochoid.fem.laws import HertzLine, Law
-from trochoid.fem.pair import Pair, State
+from trochoid.fem.pair import Pair, Seat, State
 from trochoid.fem.strips import REACH, STRIPS, strip_centres, strip_compliance
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
 
 NEWTON = 40
+WIDENINGS = 12  # of the strips, when pressure reaches their edge
 SETTLED = 1e-9  # change of forces and motions, relative to the largest
 PLACE = 1e-8  # m: contacts that moved less keep their coupling, which varies over millimetres
 FLOOR = 1e-9  # of the largest force: laws are linearised there at the least
@@ -117,9 +118,8 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
             f"contact: forces still change by {change:.1e} of the largest after {NEWTON} steps; "
             "reduce the clearance or the load, or start from a neighbouring position"
         )
-    if resolve:
-        return _resolved(assembly, states, coupling, forces, motion, iteration)
-    return _result(assembly, states, problem, solution, iteration + 1)
+    contact = _result(assembly, states, problem, solution, iteration + 1)
+    return _resolved(assembly, contact, coupling) if resolve else contact
 
 
 def _guess(assembly: Assembly, start: Contact | None) -> tuple[list[Array], Array]:
@@ -152,32 +152,38 @@ def _linearised(
 
 
 def _coupling(assembly: Assembly, states: Sequence[State]) -> Array:
-    """Assemble the smooth compliance between all contacts: through each body, and of the round sides on the diagonal."""
+    """Assemble the smooth compliance between all contacts: through each body, and of the round sides."""
     counts = np.cumsum([0] + [len(s.gap) for s in states])
     total = np.diag(np.concatenate([f.round_side for f in assembly.families]))
     for number, body in enumerate(assembly.bodies):
         on = [
-            (slice(counts[i], counts[i + 1]), s)
-            for i, (f, s) in enumerate(zip(assembly.families, states, strict=True))
-            if f.pair.seat is not None and f.pair.seat.body == number
+            i
+            for i, family in enumerate(assembly.families)
+            if family.pair.seat is not None and family.pair.seat.body == number
         ]
         if on:
-            index = np.concatenate([np.arange(rows.start, rows.stop) for rows, _ in on])
-            total[np.ix_(index, index)] += _through(body, [s for _, s in on])
+            index = np.concatenate([np.arange(counts[i], counts[i + 1]) for i in on])
+            total[np.ix_(index, index)] += _through(
+                body, [assembly.families[i].pair.seat for i in on], [states[i] for i in on]
+            )
     return total
 
 
 def seat_coupling(assembly: Assembly, family: Family, motion: Array) -> Array:
     """Return the compliance (c, c) in m/N of one family's seat: smooth part of the body and of the round sides."""
-    state = family.pair.at(motion)
-    seat = family.pair.seat
+    state, seat = family.pair.at(motion), family.pair.seat
     total = np.diag(family.round_side)
-    return total if seat is None else total + _through(assembly.bodies[seat.body], [state])
+    return total if seat is None else total + _through(assembly.bodies[seat.body], [seat], [state])
 
 
-def _through(body: ElasticBody, states: Sequence[State]) -> Array:
-    place = Weights.joined([s.weights for s in states if s.weights is not None])
-    return body.compliance.between(place, np.concatenate([s.point for s in states])) / body.width
+def _through(body: ElasticBody, seats: Sequence[Seat | None], states: Sequence[State]) -> Array:
+    weights = [
+        seat.weights(state.place)
+        for seat, state in zip(seats, states, strict=True)
+        if seat is not None and state.place is not None
+    ]
+    points = np.concatenate([s.point for s in states])
+    return body.compliance.between(Weights.joined(weights), points) / body.width
 
 
 def _result(
@@ -200,51 +206,66 @@ def _result(
     )
 
 
-def _resolved(
-    assembly: Assembly,
-    states: Sequence[State],
-    coupling: Array,
-    forces: Sequence[Array],
-    motion: Array,
-    iterations: int,
-) -> Contact:
-    """Give every Hertz contact that may touch its strips; the others keep their linearised laws."""
-    groups = []
-    width = [np.zeros(0)] * len(states)
-    base = _linearised(assembly, states, coupling, forces, motion)
-    for i, (family, state, force) in enumerate(zip(assembly.families, states, forces, strict=True)):
-        if family.law is not None:
-            groups.append(base.groups[i])
-            continue
-        half = HertzLine(family.kernel, state.radius).half_width(
-            np.maximum(force, 1e-6 * force.max(initial=1e-300))
+def _resolved(assembly: Assembly, level0: Contact, coupling: Array) -> Contact:
+    """Give every Hertz contact its strips, wide enough for its force; the others keep their linearised laws."""
+    states = [level0.touches[f.name].state for f in assembly.families]
+    forces = [level0.touches[f.name].force for f in assembly.families]
+    for _ in range(WIDENINGS):
+        problem, offsets, start = _strips(assembly, states, coupling, forces, level0.motion)
+        solution = lcp.solve(problem, start)
+        spilt = [
+            len(x) > 0 and bool((p[:, [0, -1]] > 0).any()) for x, p in zip(offsets, solution.forces, strict=True)
+        ]
+        if not any(spilt):
+            break
+        forces = [
+            np.maximum(1.5 * f, p.sum(axis=1)) for f, p in zip(forces, solution.forces, strict=True)
+        ]
+    else:
+        raise NotConverged(
+            f"contact: pressure still reaches the edge of its strips after {WIDENINGS} widenings; "
+            "the surfaces conform, which strips on one contact do not cover"
         )
-        width[i] = 2 * REACH * half / STRIPS
+    contact = _result(assembly, states, problem, solution, level0.iterations + 1)
+    touches = {
+        family.name: _strip_touch(contact.touches[family.name], x, p)
+        for family, x, p in zip(assembly.families, offsets, solution.forces, strict=True)
+    }
+    return replace(contact, touches=touches)
+
+
+def _strips(
+    assembly: Assembly, states: Sequence[State], coupling: Array, forces: Sequence[Array], motion: Array
+) -> tuple[lcp.Problem, list[Array], lcp.Solution]:
+    """Return the problem with strips, their offsets (c, m) per family (empty: not resolved), and a start for it."""
+    base = _linearised(assembly, states, coupling, forces, motion)
+    groups, offsets, active = [], [], []
+    for family, state, force, plain in zip(assembly.families, states, forces, base.groups, strict=True):
+        if family.law is not None:
+            groups.append(plain)
+            offsets.append(np.zeros(0))
+            active.append((force > 0)[:, None])
+            continue
+        least = 1e-6 * float(force.max(initial=0.0)) or 1e-9
+        half = HertzLine(family.kernel, state.radius).half_width(np.maximum(force, least))
         offset = strip_centres() * (REACH * half)[:, None]
         gap = family.pair.gap_along(state, motion, offset)
         gap = gap + (state.arms @ motion)[:, None] if assembly.follow else gap
-        local = strip_compliance(family.kernel, width[i])
+        local = strip_compliance(family.kernel, 2 * REACH * half / STRIPS)
         groups.append(lcp.Group(local, gap, np.repeat(state.arms[:, None, :], STRIPS, axis=1)))
+        offsets.append(offset)
+        active.append((np.abs(offset) < half[:, None]) & (force > 0)[:, None])
     problem = lcp.Problem(tuple(groups), coupling, assembly.springs, assembly.load)
-    solution = lcp.solve(problem)
-    contact = _result(assembly, states, problem, solution, iterations + 1)
-    touches = dict(contact.touches)
-    for i, family in enumerate(assembly.families):
-        if family.law is None:
-            strips = solution.forces[i]
-            pressed = (strips > 0).sum(axis=1)
-            touches[family.name] = Touch(
-                states[i],
-                strips.sum(axis=1),
-                0.5 * pressed * width[i],
-                strips.max(axis=1) / width[i],
-            )
-    return Contact(
-        touches,
-        contact.motion,
-        contact.stiffness,
-        contact.imbalance,
-        contact.penetration,
-        iterations + 1,
-        solution,
-    )
+    return problem, offsets, lcp.Solution((), motion, tuple(active), 0, 0.0, 0.0)
+
+
+def _strip_touch(level0: Touch, offset: Array, strips: Array) -> Touch:
+    """Return force, half width and peak of resolved contacts; a² is four times the variance of a Hertz pressure."""
+    if len(offset) == 0:
+        return level0
+    force = strips.sum(axis=1)
+    whole = np.where(force > 0, force, 1.0)
+    mean = (strips * offset).sum(axis=1) / whole
+    variance = (strips * (offset - mean[:, None]) ** 2).sum(axis=1) / whole
+    width = offset[:, 1] - offset[:, 0]
+    return Touch(level0.state, force, 2 * np.sqrt(variance), strips.max(axis=1) / width)

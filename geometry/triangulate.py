@@ -7,6 +7,7 @@ from types import ModuleType
 
 import numpy as np
 
+from trochoid.geometry.crossing import fail_if_crossing
 from trochoid.geometry.session import gmsh_session
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, IntArray
@@ -25,6 +26,7 @@ def triangulate(loops: Sequence[Array], slope: float) -> tuple[Array, IntArray]:
     boundary = np.concatenate(loops)
     shift, scale = boundary.mean(axis=0), float(np.ptp(boundary, axis=0).max())
     unit = [np.rint((loop - shift) / scale * _GRID) / _GRID + 0.0 for loop in loops]
+    fail_if_crossing(loops)
     with gmsh_session() as gmsh:
         try:
             _add_polygons(gmsh, unit)
@@ -106,11 +108,10 @@ def _fail_if_not_filled(loops: Sequence[Array], points: Array, triangles: IntArr
         after = np.roll(loop, -1, axis=0)
         doubled.append(float(np.sum(loop[:, 0] * after[:, 1] - loop[:, 1] * after[:, 0])))
     if min(doubled) <= 0.0:
-        raise TrochoidError(
-            "a loop of the outline runs clockwise or crosses itself; give all counter-clockwise"
-        )
+        raise TrochoidError("a loop of the outline runs clockwise; give all loops counter-clockwise")
     wanted, found = doubled[0] - sum(doubled[1:]), float(_doubled_areas(points, triangles).sum())
     if abs(found - wanted) > 1e-6 * doubled[0]:
         raise TrochoidError(
-            f"triangles cover {0.5 * found:.6g} m² of an outline of {0.5 * wanted:.6g} m²; do its loops cross?"
+            f"triangles cover {0.5 * found:.6g} m² of an outline of {0.5 * wanted:.6g} m²; "
+            "all holes must lie inside, and none in another"
         )

@@ -183,13 +183,36 @@ def gap(
     ground = cycloid.modified(modification)
     centers = np.asarray(pin_centers, dtype=np.float64)
     if modification.rotation == 0.0:
-        t, distance = foot_point(ground, centers, t0)
+        t, distance = _from_flank(ground, centers, t0)
         return distance - cycloid.pin_radius, t
     turn = modification.rotation
-    t_a, one = foot_point(ground, _turned(centers, turn), t0)
-    t_b, other = foot_point(ground, _turned(centers, -turn), t0)
+    t_a, one = _from_flank(ground, _turned(centers, turn), t0)
+    t_b, other = _from_flank(ground, _turned(centers, -turn), t0)
     first = one >= other if turn > 0.0 else one <= other
     return np.where(first, one, other) - cycloid.pin_radius, np.where(first, t_a, t_b)
+
+
+def _from_flank(ground: Cycloid, centers: Array, t0: npt.ArrayLike) -> tuple[Array, Array]:
+    """Foot parameters and signed distances (m) of pin centres from a flank.
+
+    Pin centres lie close to the path that generates the flank, and have the same foot on both: Newton on the
+    path needs two exponentials a step. What is farther away than its curvature goes to the general search.
+    """
+    z = centers[..., 0] + 1j * centers[..., 1]
+    t = np.array(np.broadcast_to(np.asarray(t0, dtype=np.float64), z.shape))
+    R, e, pins = ground.pin_circle_radius, ground.eccentricity, ground.pins
+    for _ in range(12):
+        a, b = R * np.exp(1j * t), e * np.exp(1j * pins * t)
+        offset, slope = z - (a - b), 1j * (a - pins * b)
+        bend = np.abs(slope) ** 2 + (offset * (a - pins**2 * b).conj()).real
+        step = (offset * slope.conj()).real / bend
+        if not np.all(bend > 0.5 * np.abs(slope) ** 2):
+            break
+        t = t + step
+        if np.abs(step).max(initial=0.0) < 1e-10:  # what is left is its square
+            foot = z - (R * np.exp(1j * t) - e * np.exp(1j * pins * t))
+            return t, (foot * ground._normal(t).conj()).real + ground.pin_radius
+    return foot_point(ground, centers, t0)
 
 
 def gap_first_order(cycloid: Cycloid, modification: Modification, t: npt.ArrayLike) -> Array:

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 import click
@@ -177,8 +178,8 @@ def _plan_text(path: str, plan: Plan) -> str:
     memory = max((stage.memory_mib for stage in needed), default=0.0)
     lines = [
         f"{path} is valid",
-        f"quantities  {', '.join(plan.quantities)}",
-        f"effects     {', '.join(plan.effects) or 'none'}",
+        _wrapped("quantities", plan.quantities),
+        _wrapped("effects", plan.effects or ("none",)),
         f"model       {plan.model}",
         "",
         *(f"{a:<{widths[0]}}  {b:>{widths[1]}}  {c:>{widths[2]}}  {why}".rstrip() for a, b, c, why in rows),
@@ -186,6 +187,10 @@ def _plan_text(path: str, plan: Plan) -> str:
         f"about {total:.2g} s and {memory:.0f} MiB",
     ]
     return "\n".join(lines)
+
+
+def _wrapped(head: str, names: Sequence[str]) -> str:
+    return fill(f"{head:<12}{', '.join(names)}", 100, subsequent_indent=" " * 12, break_on_hyphens=False)
 
 
 def _say(message: str, code: int) -> int:

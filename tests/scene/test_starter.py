@@ -64,7 +64,7 @@ def test_starter_is_a_scene(kind: str) -> None:
     assert plain.ask.quantities == tuple(NEEDS[kind])
     assert tuple(effect.type for effect in plain.effects) == EFFECTS
     assert full.accuracy.model is not None
-    assert full.drive.output_pins.pin_radius is not None
+    assert full.drive.contact_stiffness is not None
 
 
 @pytest.mark.property

@@ -37,7 +37,6 @@ class OutputPins(Table):
     count: Annotated[int, Whole(3, 100)]
     circle_radius: PositiveLength
     roller_radius: PositiveLength
-    pin_radius: PositiveLength | None = None
     hole_clearance: Play = 0.0
     phase: Angle = 0.0
 

@@ -184,9 +184,15 @@ def _bearing(
     one = plane(design).kernel / bearing.roller_length
     if not motions.floating:  # rigid rollers on a rigid eccentric: the seat's own Hertz contact is left
         return [Family(f"bearing{i}", pair, np.full(count, one), np.zeros(count))]
-    law = PowerLaw(iso16281_constant(bearing.roller_length), EXPONENT)
+    law = PowerLaw(roller_constant(design), EXPONENT)
     side = np.full(count, 0.0 if body is None else _seat_for_seat(design, law, one))
     return [Family(f"bearing{i}", pair, np.full(count, 2 * one), side, law)]
+
+
+def roller_constant(design: Design) -> float:
+    """Return the load constant of a roller between its raceways, N/m^(10/9): the standard's for steel, else in proportion to E'."""
+    steel = Material(210e9, 0.3).plane(design.drive.plane).modulus
+    return iso16281_constant(design.drive.eccentric_bearing.roller_length) * plane(design).modulus / steel
 
 
 def _seat_for_seat(design: Design, law: PowerLaw, one: float) -> float:

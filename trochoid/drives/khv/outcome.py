@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
+from trochoid.drives.khv import headline
 from trochoid.drives.khv.plan import WHY
 from trochoid.drives.khv.stages import Stages
 from trochoid.results.outcome import Check, Outcome, Quantity, Stage
@@ -14,38 +17,31 @@ BALANCE = 1e-9
 
 
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
-    """Gather what the stages hold; no stage is started here."""
+    """Gather what the stages hold; no stage is started here but the figures' own."""
     ran = tuple(stages.clock.seconds)
-    solved = "contact" in ran
-    return Outcome(
+    words = Outcome(
         scene=stages.scene.model_dump(mode="json"),
         quantities=quantities,
-        checks=checks(stages) if solved else (),
-        warnings=warnings(stages) if solved else (),
-        notes={"rigid against elastic reactions": stages.reactions.fine.reason} if "reactions" in ran else {},
         not_needed=tuple(name for name in WHY if name not in ran),
-        **_pictures(stages, ran),
-        stages=tuple(Stage(name, seconds) for name, seconds in stages.clock.seconds.items()),
+        title=headline.title(stages),
+        facts=headline.facts(stages),
+        not_simulated=headline.not_simulated(stages.scene),
     )
+    if "contact" in ran:
+        words = replace(words, checks=checks(stages), warnings=warnings(stages), **_pictures(stages, ran))
+    if "reactions" in ran:
+        words = replace(words, notes={"Rigid and elastic reactions": stages.reactions.fine.reason})
+    seconds = stages.clock.seconds
+    return replace(words, stages=tuple(Stage(name, seconds[name]) for name in seconds))
 
 
-def _pictures(stages: Stages, ran: tuple[str, ...]) -> dict[str, object]:
-    """Return series, drawing and fields; nothing but words when no contact was solved."""
-    from trochoid.drives.khv import headline
-
-    words: dict[str, object] = {
-        "title": headline.title(stages),
-        "facts": headline.facts(stages),
-        "not_simulated": headline.not_simulated(stages.scene),
-    }
-    if "contact" not in ran:
-        return words
+def _pictures(stages: Stages, ran: tuple[str, ...]) -> dict[str, Any]:
+    """Return series, drawing and fields of the solved contacts."""
     with stages.clock.stage("figures"):
         from trochoid.drives.khv.dataset import dataset
         from trochoid.drives.khv.picture import drawing, fields
 
         return {
-            **words,
             "dataset": dataset(stages, ran),
             "drawing": drawing(stages),
             "fields": fields(stages) if "stress" in ran else (),
