@@ -144,7 +144,8 @@ def _varying(answer: FrequencyResponse, change: Array, first: Array) -> Array:
         y = flat.reshape(first.shape)
         lines = harmonics(np.einsum("pij,pj->pi", change, y))
         modal = np.concatenate([(lines[:1] @ shapes) * held, answer.to(lines[1:])])
-        return (y + synthesize(modal @ shapes.T, len(y))).ravel()
+        lines = np.asarray(modal @ shapes.T, dtype=np.complex128)
+        return np.asarray((y + synthesize(lines, len(y))).ravel())
 
     size = first.size
     scale = float(np.abs(first).max(initial=0.0))
@@ -157,7 +158,7 @@ def _varying(answer: FrequencyResponse, change: Array, first: Array) -> Array:
             "the stiffness varies so strongly over a turn that no steady motion was found (parametric resonance): "
             "raise operation.damping_ratio or change the speed"
         )
-    return scale * y.reshape(first.shape)
+    return np.asarray(scale * y.reshape(first.shape))
 
 
 def _departure(stiffnesses: Array) -> float:

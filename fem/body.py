@@ -1,9 +1,10 @@
-"""An elastic body: mesh, moduli and the factor of its stiffness. Built once; every position of a drive reuses it.
+"""An elastic body: mesh, moduli and the factor of its stiffness. Built once; every position of a drive
+reuses it.
 
-A body that is held has `supports`. A free body (a disc between its contacts) is held at three degrees of freedom only to make
-the matrix regular; every load is first balanced by a rigid-body acceleration field (inertia relief), so that these three
-carry nothing, and displacements are measured from the body's mean motion. The compliance is then symmetric and does not know
-where the body was held.
+A body that is held has `supports`. A free body (a disc between its contacts) is held at three degrees of
+freedom only to make the matrix regular; every load is first balanced by a rigid-body acceleration field
+(inertia relief), so that these three carry nothing, and displacements are measured from the body's mean
+motion. The compliance is then symmetric and does not know where the body was held.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ EDGES = ((0, 1, 3), (1, 2, 4), (2, 0, 5))  # corner, corner, mid node of each si
 class Body:
     """A factored plane body of unit thickness.
 
-    `neighbours` (m, 3) element across each side, −1 on the boundary; `held` (n,) nodes that D must stay off; `solve` takes and
-    gives (2n, k); `relief` is None for a held body.
+    `neighbours` (m, 3) element across each side, −1 on the boundary; `held` (n,) nodes that D must stay off;
+    `solve` takes and gives (2n, k); `relief` is None for a held body.
     """
 
     mesh: Mesh
@@ -48,9 +49,9 @@ class Body:
 class Relief:
     """What balances a load on a free body.
 
-    `modes` (2n, 3) rigid motions x, y, rotation about the origin; `weighted` = W·modes, the accelerations' nodal loads;
-    `gram` = modesᵀ W modes; `answer` = K⁻¹ W modes and `mean` = modesᵀ W K⁻¹ W modes, which give the mean motion of any solution by
-    reciprocity, without an integral over a singular field.
+    `modes` (2n, 3) rigid motions x, y, rotation about the origin; `weighted` = W·modes, the accelerations'
+    nodal loads; `gram` = modesᵀ W modes; `answer` = K⁻¹ W modes and `mean` = modesᵀ W K⁻¹ W modes, which give
+    the mean motion of any solution by reciprocity, without an integral over a singular field.
     """
 
     modes: Array

@@ -2,12 +2,14 @@
 
     w = C p + g − R a ≥ 0,   p ≥ 0,   p·w = 0,   Rᵀp + K a = F.
 
-C is built of small dense blocks (the strips of one contact act on each other) and of a smooth coupling between the *totals* of
-contacts; a block may also be a whole conforming contact. K holds springs that motions rest on (bearings), zero for free motions.
+C is built of small dense blocks (the strips of one contact act on each other) and of a smooth coupling
+between the *totals* of contacts; a block may also be a whole conforming contact. K holds springs that motions
+rest on (bearings), zero for free motions.
 
-Proximal steps make every motion stiff (spring κ to the last a): the problem is then a linear complementarity problem with a
-P-matrix. It is solved by a primal-dual active set (block pivoting) and, when that makes no progress, by Murty's single pivots,
-which end after finitely many. κ falls step by step until the springs carry nothing.
+Proximal steps make every motion stiff (spring κ to the last a): the problem is then a linear complementarity
+problem with a P-matrix. It is solved by a primal-dual active set (block pivoting) and, when that makes no
+progress, by Murty's single pivots, which end after finitely many. κ falls step by step until the springs
+carry nothing.
 """
 
 from __future__ import annotations
@@ -28,7 +30,9 @@ TOLERANCE = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """Contacts with equally many strips: compliance `local` (c, m, m) in m/N, `gap` (c, m) in m (inf: a strip that can never touch), `arms` (c, m, k)."""
+    """Contacts with equally many strips: compliance `local` (c, m, m) in m/N, `gap` (c, m) in m (inf: a
+    strip that can never touch), `arms` (c, m, k).
+    """
 
     local: Array
     gap: Array
@@ -37,7 +41,9 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """Groups in order, `coupling` (C, C) between totals of all C contacts in m/N, `springs` (k, k) in N/m and `load` (k,) on the motions."""
+    """Groups in order, `coupling` (C, C) between totals of all C contacts in m/N, `springs` (k, k) in N/m
+    and `load` (k,) on the motions.
+    """
 
     groups: tuple[Group, ...]
     coupling: Array
@@ -212,7 +218,8 @@ def _totals(
     size = np.sqrt(np.abs(np.diag(stiffness)))
     size[size == 0] = 1.0
     scale = np.concatenate([np.ones(count), 1 / size])
-    # motions are measured in the length that their stiffness gives them, so that radians and metres weigh alike
+    # motions are measured in the length that their stiffness gives them, so that radians and metres weigh
+    # alike
     system *= scale[None, :]
     system[count:] *= scale[count:, None]
     answer = np.linalg.solve(system, np.concatenate([-gap[touching], load * scale[count:]])) * scale

@@ -1,10 +1,12 @@
-"""Compliance of a body's surfaces: C(x, y) = −2/(πE')·ln|x−y| + S(x, y), with S smooth and tabulated at stations.
+"""Compliance of a body's surfaces: C(x, y) = −2/(πE')·ln|x−y| + S(x, y), with S smooth and tabulated at
+stations.
 
-Every facet's mid node is a station: the true profile passes through it and the quadratic boundary is smooth there. S is splined in
-arc length, in both arguments, so that a contact may sit anywhere on the profile. On a curved surface S has a kink at x = y: the point
-force drags the surface towards itself, by a jump of (κ−1)/(4G), and the normal turns with the curvature k, which leaves
-k(κ−1)/(8G)·|x−y|. A spline across the kink would be ten times worse than the mesh. So S(x, x) has a spline of its own, and on
-surfaces of constant curvature the kink is taken out of the table as well.
+Every facet's mid node is a station: the true profile passes through it and the quadratic boundary is smooth
+there. S is splined in arc length, in both arguments, so that a contact may sit anywhere on the profile. On a
+curved surface S has a kink at x = y: the point force drags the surface towards itself, by a jump of
+(κ−1)/(4G), and the normal turns with the curvature k, which leaves k(κ−1)/(8G)·|x−y|. A spline across the
+kink would be ten times worse than the mesh. So S(x, x) has a spline of its own, and on surfaces of constant
+curvature the kink is taken out of the table as well.
 """
 
 from __future__ import annotations
@@ -14,11 +16,11 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
+
 from trochoid.fem import flamant
 from trochoid.fem.body import Body
 from trochoid.fem.linear_solver import BLOCK
 from trochoid.fem.patch import Patch, PointForce, patch_load
-from trochoid.geometry.mesh import Mesh
 from trochoid.geometry.outline import Loop
 from trochoid.kinematics.curve import ArcLength
 from trochoid.kinematics.types import Array, IntArray, frozen
@@ -28,7 +30,8 @@ from trochoid.kinematics.types import Array, IntArray, frozen
 class Stations:
     """Where a body may be pressed: mid nodes of facets.
 
-    `nodes` (k,), outward unit normals (k, 2) of the true profile, the facet's `elements` (k,) and `facets` lengths (k,).
+    `nodes` (k,), outward unit normals (k, 2) of the true profile, the facet's `elements` (k,) and `facets`
+    lengths (k,).
     """
 
     nodes: IntArray
@@ -39,7 +42,9 @@ class Stations:
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """One closed surface of a body: arc-length positions of its stations, its length in m, the first station, and the kink's slope in 1/(Pa·m)."""
+    """One closed surface of a body: arc-length positions of its stations, its length in m, the first
+    station, and the kink's slope in 1/(Pa·m).
+    """
 
     name: str
     positions: Array
@@ -50,7 +55,9 @@ class Surface:
 
 @dataclass(frozen=True, slots=True)
 class Weights:
-    """Non-zero cubic B-splines at n places: columns (n, 4) of the table, their values (n, 4); the surface's first station and its kink's slope (n,)."""
+    """Non-zero cubic B-splines at n places: columns (n, 4) of the table, their values (n, 4); the surface's
+    first station and its kink's slope (n,).
+    """
 
     columns: IntArray
     values: Array
@@ -72,8 +79,9 @@ class Weights:
 class Compliance:
     """Tabulated smooth compliance of a body of unit thickness.
 
-    `table` (k, k) and `diagonal` (k,) hold the spline coefficients of S and of S(x, x) in 1/Pa, `stations` (k, k) S itself, `kernel`
-    is 2/(πE'), `asymmetry` the largest difference of S from its transpose over the range of S: a measure of the mesh.
+    `table` (k, k) and `diagonal` (k,) hold the spline coefficients of S and of S(x, x) in 1/Pa, `stations`
+    (k, k) S itself, `kernel` is 2/(πE'), `asymmetry` the largest difference of S from its transpose over the
+    range of S: a measure of the mesh.
     """
 
     surfaces: Mapping[str, Surface]
@@ -84,9 +92,11 @@ class Compliance:
     asymmetry: float
 
     def between(self, place: Weights, points: Array) -> Array:
-        """Return the compliance (n, n) between points (n, 2) at these places; on the diagonal S alone, without the logarithm."""
+        """Return the compliance (n, n) between points (n, 2) at these places; on the diagonal S alone,
+        without the logarithm.
+        """
         gathered = self.table[place.columns[:, None, :, None], place.columns[None, :, None, :]]
-        result = np.einsum("ijab,ia,jb->ij", gathered, place.values, place.values, optimize=True)
+        result: Array = np.einsum("ijab,ia,jb->ij", gathered, place.values, place.values, optimize=True)
         offset = points[:, None] - points[None]
         distance = np.hypot(offset[..., 0], offset[..., 1])
         np.fill_diagonal(distance, 1.0)
@@ -189,7 +199,9 @@ def _add_singular(body: Body, load: PointForce, patch: Patch, stations: Stations
 
 
 def solve_patches(body: Body, loads: list[PointForce], patches: list[Patch]) -> Array:
-    """Solve for the finite-element part (2n, k) of point forces; a free body is balanced by inertia relief and its mean motion removed."""
+    """Solve for the finite-element part (2n, k) of point forces; a free body is balanced by inertia relief
+    and its mean motion removed.
+    """
     rhs = np.zeros((body.size, len(patches)), order="F")
     for j, patch in enumerate(patches):
         np.add.at(rhs[:, j], patch.dofs, patch.values)
@@ -207,7 +219,9 @@ def solve_patches(body: Body, loads: list[PointForce], patches: list[Patch]) -> 
 
 
 def _nearest_value(body: Body, load: PointForce, field: Array) -> Array:
-    """Return the field (2n, 3) at the loaded point as (3, 2): the mean of the loaded element's nodes weighted to the point."""
+    """Return the field (2n, 3) at the loaded point as (3, 2): the mean of the loaded element's nodes
+    weighted to the point.
+    """
     nodes = body.mesh.triangles[:, load.element]
     distance = np.linalg.norm(body.mesh.points[nodes] - load.point, axis=1)
     node = nodes[int(np.argmin(distance))]

@@ -1,7 +1,7 @@
 """Plane elasticity on quadratic triangles: element matrices, mass, stress recovery.
 
-scikit-fem supplies the curved mapping, the basis and its quadrature; the element matrices are formed for all elements in one
-batched product, because a form per pair of the twelve basis functions costs ten times more.
+scikit-fem supplies the curved mapping, the basis and its quadrature; the element matrices are formed for all
+elements in one batched product, because a form per pair of the twelve basis functions costs ten times more.
 """
 
 from __future__ import annotations
@@ -61,7 +61,9 @@ def assemble(parts: Elements, size: int) -> csc_matrix:
 
 
 def nodal_stress(mesh: Mesh, plane: Plane, displacement: Array) -> Array:
-    """Return the stress per element node (m, 6, 3) as xx, yy, xy in Pa of displacements (m, 6, 2) at the elements' nodes."""
+    """Return the stress per element node (m, 6, 3) as xx, yy, xy in Pa of displacements (m, 6, 2) at the
+    elements' nodes.
+    """
     basis = Basis(
         quadratic_mesh(mesh), ElementTriP2(), quadrature=(ElementTriP2.doflocs.T.copy(), np.full(6, 1 / 12))
     )

@@ -1,7 +1,7 @@
 """Local laws: how much two surfaces approach each other under the total force of one contact.
 
-A law gives the approach and its derivative for all contacts of a family at once; the smooth deformation of the bodies
-is not in it (the coupling has it). Each law is monotone and concave in the force.
+A law gives the approach and its derivative for all contacts of a family at once; the smooth deformation of
+the bodies is not in it (the coupling has it). Each law is monotone and concave in the force.
 """
 
 from __future__ import annotations
@@ -37,7 +37,8 @@ class LinearSpring:
 class HertzLine:
     """Hertz line contact seen from its own half-width a: h = A F (ln(2/a) + ½), with a² = 2 A F R.
 
-    `kernel` (c,) is A, the sum of 2/(πE') of both bodies over the face width, in 1/N·m; `radius` (c,) the combined radius of
+    `kernel` (c,) is A, the sum of 2/(πE') of both bodies over the face width, in 1/N·m; `radius` (c,) the
+    combined radius of
     """
 
     kernel: Array

@@ -44,7 +44,8 @@ def _superlu(matrix: csc_matrix) -> Solve:
 
 
 def _cholmod(matrix: csc_matrix) -> Solve:
-    from cvxopt import cholmod, matrix as dense, spmatrix
+    from cvxopt import cholmod, spmatrix
+    from cvxopt import matrix as dense
 
     lower = tril(matrix, format="coo")
     sparse = spmatrix(

@@ -19,7 +19,9 @@ from trochoid.kinematics.types import Array, IntArray, frozen
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A rigid member at its nominal pose: centre (2,) in m, angle in rad; `moves` (3, k) turns the motions into x, y and rotation of its centre."""
+    """A rigid member at its nominal pose: centre (2,) in m, angle in rad; `moves` (3, k) turns the motions
+    into x, y and rotation of its centre.
+    """
 
     center: Array
     angle: float
@@ -33,10 +35,11 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Seat:
-    """Where contacts press an elastic body: body number, and per contact a surface; all are equal but for their start.
+    """Where contacts press an elastic body: body number, and per contact a surface; all are equal but for
+    their start.
 
-    `surface` is the first contact's; `first` (c,) the first station of each one's own, `shift` (c,) in m how much later its arc
-    length begins.
+    `surface` is the first contact's; `first` (c,) the first station of each one's own, `shift` (c,) in m how
+    much later its arc length begins.
     """
 
     body: int
@@ -70,9 +73,9 @@ class Seat:
 class State:
     """A pair at given motions, for its c contacts.
 
-    `gap` (c,) in m, `arms` (c, k) closing per unit motion, `point` (c, 2) and `normal` (c, 2) (out of the first member) in the fixed
-    frame, `parameter` (c,) on the curve, `radius` (c,) combined radius of curvature and `place` (c,)
-    arc length on the seat (None: rigid), both in m.
+    `gap` (c,) in m, `arms` (c, k) closing per unit motion, `point` (c, 2) and `normal` (c, 2) (out of the
+    first member) in the fixed frame, `parameter` (c,) on the curve, `radius` (c,) combined radius of
+    curvature and `place` (c,) arc length on the seat (None: rigid), both in m.
     """
 
     gap: Array
@@ -122,7 +125,9 @@ def rotation(angle: float) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class FlankPair:
-    """A cycloid flank (first member) against round pins fixed to the second; `pins` (c, 2) in the second member's frame."""
+    """A cycloid flank (first member) against round pins fixed to the second; `pins` (c, 2) in the second
+    member's frame.
+    """
 
     disc: Member
     ring: Member
@@ -136,7 +141,8 @@ class FlankPair:
     classical: bool = False
 
     def at(self, motion: Array, start: Array | None = None) -> State:
-        """Return gaps and arms at the displaced pose; the classical calculation takes the arms of the unmodified flank."""
+        """Return gaps and arms at the displaced pose; the classical calculation takes the arms of the unmodified flank.
+        """
         (center, angle), (ring_center, ring_angle) = self.disc.displaced(motion), self.ring.displaced(motion)
         pins = self.pins @ rotation(ring_angle).T + ring_center
         local = (pins - center) @ rotation(angle)
@@ -170,12 +176,14 @@ class FlankPair:
             :, None
         ] * ground.normal(state.parameter)
         distance = np.linalg.norm(ground.point(t) - middle[:, None], axis=-1)
-        return distance - self.flank.pin_radius + self.play
+        return np.asarray(distance - self.flank.pin_radius + self.play)
 
 
 @dataclass(frozen=True, slots=True)
 class HolePair:
-    """Round holes in the first member round rollers on the second: holes and rollers (c, 2), each in its member's frame."""
+    """Round holes in the first member round rollers on the second: holes and rollers (c, 2), each in its
+    member's frame.
+    """
 
     disc: Member
     carrier: Member
@@ -186,7 +194,8 @@ class HolePair:
     seat: Seat | None
 
     def at(self, motion: Array, start: Array | None = None) -> State:
-        """Return gaps and arms at the displaced pose; a roller centred in its hole has no normal and touches nothing."""
+        """Return gaps and arms at the displaced pose; a roller centred in its hole has no normal and touches nothing.
+        """
         (center, angle), (hub, hub_angle) = self.disc.displaced(motion), self.carrier.displaced(motion)
         turn = rotation(angle)
         holes = self.holes @ turn.T + center

@@ -1,8 +1,9 @@
-"""Singularity subtraction: the finite-element load that is left of a point force once Flamant's field is taken out.
+"""Singularity subtraction: the finite-element load that is left of a point force once Flamant's field is
+taken out.
 
-In a patch D of elements round the loaded point the unknown is u − u_s (inside and on the free boundary), elsewhere it is u.
-The right-hand side is −∫ t_s·v over the free boundary of D and over its inner border Γ, plus K_D applied to u_s on Γ. On a
-smooth boundary t_s is bounded, so what the mesh has to carry is smooth.
+In a patch D of elements round the loaded point the unknown is u − u_s (inside and on the free boundary),
+elsewhere it is u. The right-hand side is −∫ t_s·v over the free boundary of D and over its inner border Γ,
+plus K_D applied to u_s on Γ. On a smooth boundary t_s is bounded, so what the mesh has to carry is smooth.
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from trochoid.fem import flamant
 from trochoid.fem.body import EDGES, Body
 from trochoid.kinematics.types import Array, IntArray
 
-RADIUS = 8.0  # of D, in local facet lengths: the error that does not vanish with the mesh is 4e-4 of a unit of the logarithm (5: 8e-4, 12: 2e-4)
+# Radius of D in local facet lengths. The error that does not vanish with the mesh is 4e-4 of a unit of the
+# logarithm (5: 8e-4, 12: 2e-4).
+RADIUS = 8.0
 _GAUSS = np.polynomial.legendre.leggauss(8)
 _X = 0.5 * (_GAUSS[0] + 1)
 _SHAPE = np.stack([(1 - _X) * (1 - 2 * _X), _X * (2 * _X - 1), 4 * _X * (1 - _X)])  # start, end, mid; (3, 8)
@@ -25,7 +28,9 @@ _SIDES = np.array(EDGES)
 
 @dataclass(frozen=True, slots=True)
 class PointForce:
-    """A force per unit thickness on the boundary: point (2,), inward unit normal (2,), force (2,), the element and facet length there."""
+    """A force per unit thickness on the boundary: point (2,), inward unit normal (2,), force (2,), the
+    element and facet length there.
+    """
 
     point: Array
     inward: Array
@@ -38,7 +43,8 @@ class PointForce:
 class Patch:
     """Load of one point force: `dofs` and `values` of the right-hand side, and the nodes where u = U + u_s.
 
-    `elements` (e,) of D, and `border` (e, 6, 2): u_s at their nodes on Γ, zero at the others; inside D, u = u_s + U − border.
+    `elements` (e,) of D, and `border` (e, 6, 2): u_s at their nodes on Γ, zero at the others; inside D, u =
+    u_s + U − border.
     """
 
     dofs: IntArray

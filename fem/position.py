@@ -1,9 +1,10 @@
 """All contacts of a drive at one position, solved together.
 
-What comes in: pairs with their local laws, the tabulated compliances of the bodies they press, springs and loads on the motions.
-Newton runs over the local laws and the poses at once: at each step the laws are linearised, the gaps are taken afresh from the
-displaced curves, and the contact problem is solved exactly. *Level 0* has one force per contact; *strips* resolves the pressure of
-the touching contacts afterwards, on the same coupling.
+What comes in: pairs with their local laws, the tabulated compliances of the bodies they press, springs and
+loads on the motions. Newton runs over the local laws and the poses at once: at each step the laws are
+linearised, the gaps are taken afresh from the displaced curves, and the contact problem is solved exactly.
+*Level 0* has one force per contact; *strips* resolves the pressure of the touching contacts afterwards, on
+the same coupling.
 """
 
 from __future__ import annotations
@@ -32,8 +33,9 @@ FLOOR = 1e-9  # of the largest force: laws are linearised there at the least
 class Family:
     """Contacts of one kind.
 
-    `kernel` (c,) is the sum of 2/(πE') of both sides over the face width, `round_side` (c,) the smooth part in m/N of a side in closed form (a pin);
-    `law` None means Hertz line contact with the pair's radius, which *strips* can resolve; with another law Hertz gives the pressure only.
+    `kernel` (c,) is the sum of 2/(πE') of both sides over the face width, `round_side` (c,) the smooth part
+    in m/N of a side in closed form (a pin); `law` None means Hertz line contact with the pair's radius, which
+    *strips* can resolve; with another law Hertz gives the pressure only.
     """
 
     name: str
@@ -55,7 +57,8 @@ class ElasticBody:
 class Assembly:
     """A drive at one position: families, bodies, springs (k, k) and loads (k,) on the motions.
 
-    `follow`: gaps and arms follow the displaced poses; the classical hand calculation keeps those of the nominal pose.
+    `follow`: gaps and arms follow the displaced poses; the classical hand calculation keeps those of the
+    nominal pose.
     """
 
     families: tuple[Family, ...]
@@ -67,7 +70,9 @@ class Assembly:
 
 @dataclass(frozen=True, slots=True)
 class Touch:
-    """Result for one family: forces (c,) in N, half widths (c,) in m, and `peak` (c,) in N/m, the largest pressure times the face width."""
+    """Result for one family: forces (c,) in N, half widths (c,) in m, and `peak` (c,) in N/m, the largest
+    pressure times the face width.
+    """
 
     state: State
     force: Array
@@ -97,7 +102,7 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
     states = [f.pair.at(motion if assembly.follow else np.zeros_like(motion)) for f in assembly.families]
     coupling = _coupling(assembly, states)
     solution = None
-    for iteration in range(NEWTON):
+    for step in range(NEWTON):
         problem = _linearised(assembly, states, coupling, forces, motion)
         solution = lcp.solve(problem, solution)
         new = [f[:, 0] for f in solution.forces]
@@ -118,7 +123,7 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
             f"contact: forces still change by {change:.1e} of the largest after {NEWTON} steps; "
             "reduce the clearance or the load, or start from a neighbouring position"
         )
-    contact = _result(assembly, states, problem, solution, iteration + 1)
+    contact = _result(assembly, states, problem, solution, step + 1)
     return _resolved(assembly, contact, coupling) if resolve else contact
 
 
@@ -214,13 +219,12 @@ def _resolved(assembly: Assembly, level0: Contact, coupling: Array) -> Contact:
         problem, offsets, start = _strips(assembly, states, coupling, forces, level0.motion)
         solution = lcp.solve(problem, start)
         spilt = [
-            len(x) > 0 and bool((p[:, [0, -1]] > 0).any()) for x, p in zip(offsets, solution.forces, strict=True)
+            len(x) > 0 and bool((p[:, [0, -1]] > 0).any())
+            for x, p in zip(offsets, solution.forces, strict=True)
         ]
         if not any(spilt):
             break
-        forces = [
-            np.maximum(1.5 * f, p.sum(axis=1)) for f, p in zip(forces, solution.forces, strict=True)
-        ]
+        forces = [np.maximum(1.5 * f, p.sum(axis=1)) for f, p in zip(forces, solution.forces, strict=True)]
     else:
         raise NotConverged(
             f"contact: pressure still reaches the edge of its strips after {WIDENINGS} widenings; "

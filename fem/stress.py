@@ -1,7 +1,9 @@
-"""Displacement and stress of a body under its contacts: Hertz in closed form near them, finite elements for the rest.
+"""Displacement and stress of a body under its contacts: Hertz in closed form near them, finite elements for
+the rest.
 
-The same split as in the compliance: in a patch round each contact the finite elements carry only what is left of the half-plane's
-field, so that a mesh that is twenty times coarser than the contact still shows its stress.
+The same split as in the compliance: in a patch round each contact the finite elements carry only what is left
+of the half-plane's field, so that a mesh that is twenty times coarser than the contact still shows its
+stress.
 """
 
 from __future__ import annotations
@@ -24,7 +26,9 @@ DEPTHS = np.linspace(0.0, 2.0, 81)  # half-widths below a contact, where its lar
 
 @dataclass(frozen=True, slots=True)
 class Press:
-    """A contact that presses a body: edge name, curve parameter, unit normal out of the body (2,), line load N/m, half width m."""
+    """A contact that presses a body: edge name, curve parameter, unit normal out of the body (2,), line load
+    N/m, half width m.
+    """
 
     edge: str
     parameter: float
@@ -35,7 +39,9 @@ class Press:
 
 @dataclass(frozen=True, slots=True)
 class StressField:
-    """`displacement` (n, 2) m; `stress` (n, 4) xx, yy, zz, xy Pa; `von_mises` (n,) Pa; its `largest`, also below contacts, and where (2,)."""
+    """`displacement` (n, 2) m; `stress` (n, 4) xx, yy, zz, xy Pa; `von_mises` (n,) Pa; its `largest`, also
+    below contacts, and where (2,).
+    """
 
     displacement: Array
     stress: Array
@@ -45,9 +51,11 @@ class StressField:
 
 
 def hertz_stress(plane_position: Array, half_width: float, load: float) -> Array:
-    """Return the stress (n, 3) σx, σz, τxz in Pa under a Hertz line contact at (n, 2) positions x along the surface, z into the body.
+    """Return the stress (n, 3) σx, σz, τxz in Pa under a Hertz line contact at (n, 2) positions x along the
+    surface, z into the body.
 
     McEwen; Johnson, Contact Mechanics (4.49).
+
     """
     x, z = plane_position[:, 0], plane_position[:, 1]
     a = half_width
@@ -128,7 +136,9 @@ def _along(t: Array, at: float) -> float:
 
 
 def _flamant_blunted(plane: Plane, points: Array, load: PointForce, half_width: float) -> Array:
-    """Return Flamant's displacement, with the distance kept at the mean logarithmic radius a/2 of the contact or more."""
+    """Return Flamant's displacement, with the distance kept at the mean logarithmic radius a/2 of the
+    contact or more.
+    """
     position = points - load.point
     distance = np.hypot(position[:, 0], position[:, 1])
     least = 0.5 * half_width

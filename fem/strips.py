@@ -31,13 +31,16 @@ def _unit(count: int) -> Array:
 def strip_compliance(kernel: Array, width: Array, count: int = STRIPS) -> Array:
     """Return (c, m, m): displacement at a strip's centre per unit *force* on a strip, in m/N.
 
-    `kernel` (c,) is the sum of 2/(πE') of both bodies over the face width, `width` (c,) one strip's width in m.
+    `kernel` (c,) is the sum of 2/(πE') of both bodies over the face width, `width` (c,) one strip's width in
+    m.
     """
     return np.asarray(kernel[:, None, None] * (_unit(count)[None] - np.log(width)[:, None, None]))
 
 
 def curve_compliance(kernel: float, points: Array, width: Array) -> Array:
-    """Return (m, m): logarithmic compliance between strips at `points` (m, 2) of `width` (m,) along a curve; the chord stands for the arc."""
+    """Return (m, m): logarithmic compliance between strips at `points` (m, 2) of `width` (m,) along a curve;
+    the chord stands for the arc.
+    """
     distance = np.linalg.norm(points[:, None] - points[None], axis=-1)
     half = 0.5 * width[None, :]
     np.fill_diagonal(distance, 0.0)

@@ -109,7 +109,7 @@ def foot_point(
     for _ in range(iterations):
         slope = np.sum(offset * curve.tangent(t), axis=-1)
         bend = 1.0 + curve.curvature(t) * np.sum(offset * curve.normal(t), axis=-1)
-        step = _newton_step(curve, t, offset, slope, bend)
+        step = _newton_step(curve, t, slope, bend)
         small = np.abs(slope) <= noise * np.maximum(1.0, np.abs(bend))
         t, offset = _descend(curve, points, t, offset, step, noise)
         if small.all():
@@ -125,12 +125,11 @@ def _rounding(*lengths: Array) -> float:
     return 8.0 * float(np.finfo(np.float64).eps) * sum(float(np.abs(x).max(initial=0.0)) for x in lengths)
 
 
-def _newton_step(curve: Curve, t: Array, offset: Array, slope: Array, bend: Array) -> Array:
+def _newton_step(curve: Curve, t: Array, slope: Array, bend: Array) -> Array:
     # where 1 + κ d < 0 the stationary point is a maximum: there go down the slope about as far
     arc = slope / np.where(bend > 1e-12, bend, np.maximum(-bend, 0.05))
-    reach = 2.0 * np.linalg.norm(offset, axis=-1)  # the nearest point lies no farther than this
     limit = curve.period / 8.0
-    step: Array = np.clip(np.clip(arc, -reach, reach) / curve.speed(t), -limit, limit)
+    step: Array = np.clip(arc / curve.speed(t), -limit, limit)
     return step
 
 
@@ -181,17 +180,22 @@ class ArcLength:
         return rounds * self.total + self.sums[panel] + _piece(self.curve, start, inner)
 
     def parameter(self, s: npt.ArrayLike) -> Array:
-        """Parameter at arc length s (m): inverse of `length`."""
+        """Parameter at arc length s (m): inverse of `length`, by Newton steps kept within a shrinking bracket."""
         s = np.asarray(s, dtype=np.float64)
         rounds = np.floor(s / self.total)
         inner = s - rounds * self.total
         panel = np.clip(np.searchsorted(self.sums, inner, "right") - 1, 0, self.knots.size - 2)
-        low, high = self.knots[panel], self.knots[panel + 1]
-        t = low + (high - low) * (inner - self.sums[panel]) / (self.sums[panel + 1] - self.sums[panel])
-        for _ in range(8):
-            step = (inner - self.sums[panel] - _piece(self.curve, low, t)) / self.curve.speed(t)
-            t = np.clip(t + step, low, high)
-            if np.all(np.abs(step) <= 4e-16 * self.curve.period):
+        start, low, high = self.knots[panel], self.knots[panel], self.knots[panel + 1]
+        target = inner - self.sums[panel]
+        t = low + (high - low) * target / (self.sums[panel + 1] - self.sums[panel])
+        for _ in range(60):
+            miss = target - _piece(self.curve, start, t)
+            low, high = np.where(miss > 0.0, t, low), np.where(miss < 0.0, t, high)
+            step = miss / self.curve.speed(t)
+            new = np.where((t + step < low) | (t + step > high), 0.5 * (low + high), t + step)
+            done = np.all(np.abs(new - t) <= 4e-16 * self.curve.period)
+            t = new
+            if done:
                 break
         return rounds * self.curve.period + t
 

@@ -1,4 +1,5 @@
-"""Times the stages of a run; time spent in a stage that another one calls for counts for the inner one only."""
+"""Times the stages of a run; time spent in a stage that another one calls for counts for the inner one only.
+"""
 
 from __future__ import annotations
 

@@ -88,7 +88,7 @@ def test_graded_breaks_follow_the_wanted_length() -> None:
 
 @pytest.mark.exact
 def test_a_disc_has_its_named_loops() -> None:
-    """Flank, bore and holes; holes are congruent about the disc's axis and no coarser than 1.75 flank facets."""
+    """Flank, bore and holes; the holes are congruent, and no coarser than 1.75 flank facets."""
     outline = disc_outline(EXAMPLE, 0.025, 8, 0.052, 0.01, 0.2, 12)
     assert [loop.name for loop in outline.loops] == ["flank", "bore", *(f"hole{j}" for j in range(8))]
     first, third = outline.holes[1], outline.holes[3]

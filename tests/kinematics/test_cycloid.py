@@ -249,7 +249,7 @@ def test_first_order_gaps_are_off_by_the_square_of_the_change() -> None:
 
 @pytest.mark.independent
 def test_exact_gap_is_the_distance_to_a_densely_sampled_tooth() -> None:
-    """Brute force: the tooth is what both flanks, turned by ±δ, leave; the gap is the larger sampled distance."""
+    """Brute force: a tooth is what both flanks, turned by ±δ, leave: the larger sampled distance counts."""
     change = Modification(2e-5, -4e-5, 3e-4)
     ground = EXAMPLE.modified(change)
     t = EXAMPLE.contact_parameter(np.arange(20), 0.45)

@@ -84,8 +84,8 @@ def stress_max(s: Stages) -> Quantity:
             "below_contact": number(s, below, "MPa"),
             "in_the_field": number(s, field, "MPa"),
         },
-        note=f"at input angle {angle:g}°; below the contacts Hertz's stress in closed form is added to the finite-element field; "
-        "in the field: the largest at a node of the mesh",
+        note=f"at input angle {angle:g}°; below the contacts Hertz's stress in closed form is added to the "
+        "finite-element field; in the field: the largest at a node of the mesh",
     )
 
 

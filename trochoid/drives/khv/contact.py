@@ -1,7 +1,8 @@
-"""All contacts of the drive over the input angle: ring pins, output rollers in their holes, rollers of the eccentric bearing.
+"""All contacts of the drive over the input angle: ring pins, output rollers in their holes, rollers of the
+eccentric bearing.
 
-Motions: x, y, rotation of each disc; rotation of the output flange; with compliant bearings also x, y and tilt of shaft and flange.
-Contacts are solved in the frame of the ring.
+Motions: x, y, rotation of each disc; rotation of the output flange; with compliant bearings also x, y and
+tilt of shaft and flange. Contacts are solved in the frame of the ring.
 """
 
 from __future__ import annotations
@@ -97,7 +98,9 @@ def springs(design: Design, motions: Layout) -> Array:
 
 
 def loads(design: Design, motions: Layout, crank: float) -> Array:
-    """Return the loads on the motions: the load torque, and the centrifugal force of each disc when inertia is in the scene."""
+    """Return the loads on the motions: the load torque, and the centrifugal force of each disc when inertia
+    is in the scene.
+    """
     load = np.zeros(len(motions.names))
     load[motions.names.index("output.rotation")] = design.flange_torque
     if motions.lateral:
@@ -107,7 +110,9 @@ def loads(design: Design, motions: Layout, crank: float) -> Array:
 
 
 def centrifugal(design: Design, crank: Array) -> Array:
-    """Return the inertia forces (n, discs, 2) of the discs at crank angles (n,); zero when the scene leaves inertia out."""
+    """Return the inertia forces (n, discs, 2) of the discs at crank angles (n,); zero when the scene leaves
+    inertia out.
+    """
     angle = crank[:, None] + np.array([d.crank for d in design.discs])
     size = design.flank.eccentricity * design.crank_speed**2 * design.eccentric_mass
     return size * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
@@ -190,7 +195,9 @@ def _bearing(
 
 
 def roller_constant(design: Design) -> float:
-    """Return the load constant of a roller between its raceways, N/m^(10/9): the standard's for steel, else in proportion to E'."""
+    """Return the load constant of a roller between its raceways, N/m^(10/9): the standard's for steel, else
+    in proportion to E'.
+    """
     steel = Material(210e9, 0.3).plane(design.drive.plane).modulus
     return iso16281_constant(design.drive.eccentric_bearing.roller_length) * plane(design).modulus / steel
 
@@ -198,9 +205,9 @@ def roller_constant(design: Design) -> float:
 def _seat_for_seat(design: Design, law: PowerLaw, one: float) -> float:
     """Return what turns the seat that ISO/TS 16281 contains into none, plus the real seat's own logarithm, in m/N.
 
-    The standard's line contact comprises both raceways in thick bodies. Its outer seat is what is left of it after Hertz's closed forms
-    for the roller (both halves) and the eccentric; the seat computed by finite elements takes its place. Evaluated at the mean
-    load of a loaded roller.
+    The standard's line contact comprises both raceways in thick bodies. Its outer seat is what is left of it
+    after Hertz's closed forms for the roller (both halves) and the eccentric; the seat computed by finite
+    elements takes its place. Evaluated at the mean load of a loaded roller.
     """
     bearing = design.drive.eccentric_bearing
     load = np.array([nominal_roller_load(design)])
@@ -222,7 +229,8 @@ def nominal_roller_load(design: Design) -> float:
 def _round(design: Design, count: int, radius: float, width: float) -> tuple[Array, Array]:
     """Return kernel and smooth part of contacts between the disc and round pins that are held on their far side.
 
-    Half of a cylinder pressed between two contacts (Johnson, Contact Mechanics, 5.57): (2/πE')(ln(4r/a) − ½) per unit line load.
+    Half of a cylinder pressed between two contacts (Johnson, Contact Mechanics, 5.57): (2/πE')(ln(4r/a) − ½)
+    per unit line load.
     """
     one = plane(design).kernel / width
     if not design.scene.has("pin_compliance"):
@@ -236,7 +244,9 @@ def _classical(design: Design, body: ElasticBody | None) -> Law | None:
 
 
 def contact_stiffness(design: Design) -> float:
-    """Return the stiffness of one contact in N/m: given, or Hertz's at the largest pin force of the classical calculation."""
+    """Return the stiffness of one contact in N/m: given, or Hertz's at the largest pin force of the
+    classical calculation.
+    """
     d = design.drive
     if d.contact_stiffness is not None:
         return d.contact_stiffness

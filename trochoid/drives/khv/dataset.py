@@ -182,7 +182,9 @@ def _flange(stages: Stages) -> Entries:
     said = "lag of the loaded output behind its ideal angle"
     return {
         "torsional_stiffness": _entry((ANGLE,), stiffness, "N*m/rad", "torsional stiffness", STIFFNESS),
-        "transmission_error": _entry((ANGLE,), lag - mean, "rad", "transmission error", ERROR, caption=caption),
+        "transmission_error": _entry(
+            (ANGLE,), lag - mean, "rad", "transmission error", ERROR, caption=caption
+        ),
         "output_lag": _entry((ANGLE,), lag, "rad", said),
     }
 

@@ -21,8 +21,8 @@ from trochoid.scene.drive_khv import KhvDrive
 class Disc:
     """One disc in the pack: which body it is made from, and how that body sits.
 
-    `lead` of the body's frame on the profile frame (whole lobes, rad), `first_hole` that roller 0 finds, axial place `z` in m, `crank`
-    angle ahead of disc 0.
+    `lead` of the body's frame on the profile frame (whole lobes, rad), `first_hole` that roller 0 finds,
+    axial place `z` in m, `crank` angle ahead of disc 0.
     """
 
     body: int
@@ -36,8 +36,8 @@ class Disc:
 class Design:
     """The drive as the wings see it, in SI.
 
-    `modification` and the plays (in m, of one side) are zero unless the scene lists the effect "clearance"; `hole_angles` of each
-    distinct body.
+    `modification` and the plays (in m, of one side) are zero unless the scene lists the effect "clearance";
+    `hole_angles` of each distinct body.
     """
 
     scene: Scene
@@ -95,7 +95,9 @@ class Design:
         return self.pitch_radius - self.drive.eccentric_bearing.roller_radius
 
     def cage_angle(self, crank: float) -> float:
-        """Angle of the eccentric bearing's cage at a crank angle relative to the ring: its rollers roll on both raceways."""
+        """Angle of the eccentric bearing's cage at a crank angle relative to the ring: its rollers roll on
+        both raceways.
+        """
         outer, inner = self.drive.bore_radius, self.race_radius
         return crank * (inner - outer / self.flank.lobes) / (inner + outer)
 
@@ -124,8 +126,9 @@ def design(scene: Scene) -> Design:
 def _pack(drive: KhvDrive, flank: Cycloid) -> tuple[tuple[Disc, ...], tuple[float, ...]]:
     """Place the discs; those that are the same body turned by whole lobes and holes share it.
 
-    Disc i runs i/n of a turn ahead, so its holes lead its profile by i/(n z_c) of a turn. It is disc 0 turned if that is a whole
-    number of lobes plus a whole number of holes: for n | z_p and n | z_w always (sources §3), and in more cases.
+    Disc i runs i/n of a turn ahead, so its holes lead its profile by i/(n z_c) of a turn. It is disc 0 turned
+    if that is a whole number of lobes plus a whole number of holes: for n | z_p and n | z_w always (sources
+    §3), and in more cases.
     """
     holes, lobes, count = drive.output_pins.count, flank.lobes, drive.discs
     pitch = drive.face_width + drive.disc_gap

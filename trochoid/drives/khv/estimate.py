@@ -1,16 +1,22 @@
 """Discretisation error of finite-element numbers, from two mesh levels.
 
-The compliance converges with the fourth power of the facet length or better (tests/fem/test_convergence.py). Half the facet length
-therefore leaves at most a fifteenth of the difference between the levels; a third of it is reported, as if the order were two,
-because the order is not yet seen on the coarsest pair and because single positions scatter.
+The compliance converges with the fourth power of the facet length or better (tests/fem/test_convergence.py).
+Half the facet length therefore leaves at most a fifteenth of the difference between the levels; a third of it
+is reported, as if the order were two, because the order is not yet seen on the coarsest pair and because
+single positions scatter.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from trochoid.drives.khv.series import Series
 from trochoid.kinematics.types import Array
+
+if TYPE_CHECKING:
+    from trochoid.drives.khv.series import Series
 
 SHARE = 1 / 3
 
@@ -18,7 +24,8 @@ SHARE = 1 / 3
 def position_errors(fine: Array, coarse: Array) -> Array:
     """Return the estimated error (n,) of a number at each position, not less than the typical one.
 
-    Where the levels happen to cross, their difference says nothing; the root mean square over all positions stands in.
+    Where the levels happen to cross, their difference says nothing; the root mean square over all positions
+    stands in.
     """
     difference = np.abs(fine - coarse)
     return np.asarray(SHARE * np.maximum(difference, np.sqrt(np.mean(difference**2))))
@@ -40,7 +47,7 @@ def worst_error(fine: Series, coarse: Series) -> tuple[float, str]:
     return errors[worst], worst
 
 
-NUMBERS = {
+NUMBERS: dict[str, Callable[[Series], float]] = {
     "the torsional stiffness": lambda s: float(s.torsional_stiffness.mean()),
     "the largest contact force": lambda s: float(s.ring.force.max()),
     "the largest output-pin force": lambda s: float(s.output.force.max()),

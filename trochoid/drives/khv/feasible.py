@@ -36,8 +36,8 @@ def _shaft(design: Design) -> tuple[str, ...]:
     if shaft.radius <= limit:
         return ()
     return (
-        f"input_shaft.radius = {_mm(shaft.radius)}: the shaft sticks out of its eccentrics; it must be at most raceway radius less "
-        f"eccentricity = {_mm(limit)}",
+        f"input_shaft.radius = {_mm(shaft.radius)}: the shaft sticks out of its eccentrics; "
+        f"it must be at most raceway radius less eccentricity = {_mm(limit)}",
     )
 
 

@@ -20,8 +20,8 @@ from trochoid.kinematics.types import Array, frozen
 class DiscState:
     """One disc at one input angle: its mesh, its stress in its own frame, and its place.
 
-    `points` (n, 3) unloaded nodes in the ring's frame, `displacement` (n, 2) from there: elastic and rigid motion together; `turn` angle
-    of the body's frame.
+    `points` (n, 3) unloaded nodes in the ring's frame, `displacement` (n, 2) from there: elastic and rigid
+    motion together; `turn` angle of the body's frame.
     """
 
     angle: float

@@ -13,7 +13,9 @@ FACETS = 12  # an outline needs a number of facets; its section is integrated al
 
 @dataclass(frozen=True, slots=True)
 class Masses:
-    """One disc, one ring pin, one output pin with its roller, one bearing roller, shaft with eccentrics, flange without pins, ring."""
+    """One disc, one ring pin, one output pin with its roller, one bearing roller, shaft with eccentrics,
+    flange without pins, ring.
+    """
 
     disc: Solid
     ring_pin: Solid

@@ -72,7 +72,9 @@ def _check(name: str, value: float, limit: float) -> Check:
 
 
 def disc_residual(stages: Stages, i: int) -> float:
-    """Return the largest sum of forces and of moments on a disc over its largest force (and lever), recomputed from contacts alone."""
+    """Return the largest sum of forces and of moments on a disc over its largest force (and lever),
+    recomputed from contacts alone.
+    """
     from trochoid.drives.khv.contact import centrifugal
 
     series, flank = stages.contact.fine, stages.design.flank
@@ -126,7 +128,8 @@ def warnings(stages: Stages) -> tuple[str, ...]:
     given += [d.output_pins.hole_clearance, d.eccentric_bearing.clearance]
     if any(given) and not scene.has("clearance"):
         said.append(
-            'the scene gives modifications or clearances, but the effect "clearance" is not listed: they are not in the gaps'
+            'the scene gives modifications or clearances, but the effect "clearance" is not listed: '
+            "they are not in the gaps"
         )
     if not scene.has("elastic_contact"):
         said.append(
@@ -137,8 +140,8 @@ def warnings(stages: Stages) -> tuple[str, ...]:
         found = stages.reactions.fine
         if found.mismatch > 1e-3:
             said.append(
-                f"forces do not repeat after one input turn (holes, rollers and lobes are of unlike number): {100 * found.mismatch:.2g} % "
-                "of the bearing force was taken out as a ramp before spectra were made"
+                "forces do not repeat after one input turn (holes, rollers and lobes are of unlike number): "
+                f"{100 * found.mismatch:.2g} % of the bearing force was taken out as a ramp before spectra were made"
             )
         if found.response is not None:
             said += found.response.warnings

@@ -1,4 +1,4 @@
-"""The drive drawn over the input angle with its contact forces, and the discs' fields, all in the fixed frame."""
+"""The drive over the input angle with its contact forces, and the fields of its discs, in the fixed frame."""
 
 from __future__ import annotations
 
@@ -9,36 +9,151 @@ import numpy as np
 
 from trochoid.drives.khv.design import Design, circle
 from trochoid.drives.khv.stages import Stages
+from trochoid.kinematics.motion import PlaneMotion, khv_motions
 from trochoid.kinematics.types import Array, frozen
 from trochoid.results.outcome import Arrow, Drawing, DrawingFrame, Field, FieldFrame, Line
 
 FLANK_POINTS = 760
-ROUND, LARGE = 48, 120  # points of a small and of a large circle
-RING_PINS, OUTPUT_PINS, SHAFT, AXES = "ring pins", "output pins", "shaft and eccentrics", "axes and pitch circles"
+SMALL, LARGE = 48, 120  # points of a circle
+RING_PINS, OUTPUT_PINS, SHAFT, AXES = "ring pins", "output pins", "shaft and eccentrics", "pitch circles"
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
-    """A member's frame in the fixed one: centre (2,) m and angle rad."""
+class Path:
+    """A line of the drawing over all frames: `xy` (frames, points, 2) m, or (points, 2) where it stands still."""
 
-    center: Array
-    angle: float
+    name: str
+    xy: Array
+    group: str
+    style: str = "outline"
+    closed: bool = True
 
-    def put(self, xy: Array) -> Array:
-        """Carry points (n, 2) of the member to the fixed frame."""
-        return frozen(turned(xy, self.angle) + self.center)
+    def line(self, frame: int) -> Line:
+        """Return the line of one frame."""
+        return Line(
+            self.name, self.xy if self.xy.ndim == 2 else self.xy[frame], self.closed, self.style, self.group
+        )
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
-    """All members at one input angle; discs, cages and eccentrics one each per disc."""
+def drawing(stages: Stages, frames: int = 36) -> Drawing:
+    """Return at most `frames` pictures over one input turn; nothing is solved here.
 
-    ring: Place
-    flange: Place
-    shaft: Place
-    discs: tuple[Place, ...]
-    eccentrics: tuple[Place, ...]
-    cages: tuple[Place, ...]
+    Once contacts are solved, these are solved positions with the forces on the discs as arrows.
+    """
+    if "contact" not in stages.__dict__:
+        angles = np.linspace(0.0, 2 * np.pi, frames, endpoint=False)
+        arrows: list[tuple[Arrow, ...]] = [()] * frames
+    else:
+        positions = range(
+            0, len(stages.contact.fine.angle) - 1, -(-(len(stages.contact.fine.angle) - 1) // frames)
+        )
+        angles = stages.contact.fine.angle[list(positions)]
+        arrows = [tuple(_arrows(stages, position)) for position in positions]
+    paths = tuple(_paths(stages.design, angles))
+    return Drawing(
+        tuple(
+            DrawingFrame(f"{np.degrees(angle):.1f}°", tuple(path.line(i) for path in paths), arrows[i])
+            for i, angle in enumerate(angles)
+        )
+    )
+
+
+def _paths(design: Design, angles: Array) -> Iterator[Path]:
+    """Draw all members on their ideal paths; elastic motion is too small to be seen."""
+    motions = khv_motions(design.flank, angles, len(design.discs), design.drive.fixed)
+    yield Path("ring", frozen(circle(design.drive.ring.outer_radius, 2 * LARGE)), "ring")
+    for i in range(len(design.discs)):
+        yield from _disc(design, motions[f"disc{i}"], i)
+    yield from _pins(design, motions["ring"], motions["output"])
+    for i in range(len(design.discs)):
+        yield from _bearing(design, angles, motions[f"disc{i}"].center, i)
+    radius = design.drive.input_shaft.radius
+    yield Path("input shaft", frozen(circle(radius, LARGE)), SHAFT)
+    mark = motions["input"].to_fixed([[0.0, 0.0], [radius, 0.0]])
+    yield Path("input angle", frozen(mark), SHAFT, closed=False)
+    yield from _axes(design)
+
+
+def _disc(design: Design, motion: PlaneMotion, i: int) -> Iterator[Path]:
+    """Draw a disc in its motion, which is that of its profile; its body may lie turned by whole lobes."""
+    drive, pins, disc, group = design.drive, design.drive.output_pins, design.discs[i], _name(i)
+    flank = design.flank.modified(design.modification)
+    t = np.linspace(0.0, flank.period, flank.lobes * max(8, FLANK_POINTS // flank.lobes), endpoint=False)
+    yield Path(group, frozen(motion.to_fixed(flank.point(t))), group, "body")
+    yield Path(f"{group} bore", frozen(motion.to_fixed(circle(drive.bore_radius, LARGE))), group, "hole")
+    start = design.hole_angles[disc.body] + disc.lead
+    for k, center in enumerate(circle(pins.circle_radius, pins.count, start)):
+        hole = center + circle(design.hole_radius, SMALL)
+        yield Path(f"{group} hole {k + 1}", frozen(motion.to_fixed(hole)), group, "hole")
+
+
+def _pins(design: Design, ring: PlaneMotion, flange: PlaneMotion) -> Iterator[Path]:
+    drive, pins = design.drive, design.drive.output_pins
+    for k, center in enumerate(circle(drive.pin_circle_radius, drive.pins)):
+        pin = ring.to_fixed(center + circle(drive.pin_radius, SMALL))
+        yield Path(f"ring pin {k + 1}", frozen(pin), RING_PINS, "pin")
+    for k, center in enumerate(circle(pins.circle_radius, pins.count, pins.phase)):
+        roller = flange.to_fixed(center + circle(pins.roller_radius, SMALL))
+        yield Path(f"output pin {k + 1}", frozen(roller), OUTPUT_PINS, "pin")
+
+
+def _bearing(design: Design, angles: Array, center: Array, i: int) -> Iterator[Path]:
+    """Draw an eccentric and the rollers on it, in their cage."""
+    bearing = design.drive.eccentric_bearing
+    turn = ring_angle(design, angles) + design.cage_angle(1.0) * design.mesh_speed * angles
+    cage = PlaneMotion(center, frozen(turn))
+    yield Path(f"eccentric {i + 1}", frozen(cage.to_fixed(circle(design.race_radius, LARGE))), SHAFT)
+    for k, place in enumerate(circle(design.pitch_radius, bearing.rollers)):
+        roller = cage.to_fixed(place + circle(bearing.roller_radius, SMALL // 2))
+        yield Path(f"roller {k + 1}", frozen(roller), f"rollers, {_name(i)}", "pin")
+
+
+def _axes(design: Design) -> Iterator[Path]:
+    drive = design.drive
+    yield Path("pin circle", frozen(circle(drive.pin_circle_radius, LARGE)), AXES, "center")
+    yield Path("output pin circle", frozen(circle(drive.output_pins.circle_radius, LARGE)), AXES, "center")
+    reach = 1.04 * drive.ring.outer_radius
+    yield Path("x axis", frozen([[-reach, 0.0], [reach, 0.0]]), AXES, "center", closed=False)
+    yield Path("y axis", frozen([[0.0, -reach], [0.0, reach]]), AXES, "center", closed=False)
+
+
+def _arrows(stages: Stages, position: int) -> Iterator[Arrow]:
+    """Return the forces on the discs at a solved position, where they act."""
+    series = stages.contact.fine
+    turn = float(ring_angle(stages.design, series.angle[position]))
+    for name, touches in (
+        ("ring pin", series.ring),
+        ("output pin", series.output),
+        ("roller", series.bearing),
+    ):
+        if touches is None:
+            continue
+        force = touches.force[position]
+        points = turned(touches.point[position], turn)
+        vectors = turned(-force[..., None] * touches.normal[position], turn)
+        for i, k in np.argwhere(force > 0).tolist():
+            yield Arrow(frozen(points[i, k]), frozen(vectors[i, k]), _name(i), f"{name} {k + 1}")
+
+
+def fields(stages: Stages) -> tuple[FieldFrame, ...]:
+    """Return the discs' displacement and stress at the asked position, at their axial places."""
+    states = stages.field.fine
+    turn = float(ring_angle(stages.design, np.array(states[0].angle)))
+    bodies = []
+    for i, state in enumerate(states):
+        points = np.column_stack([turned(state.points[:, :2], turn), state.points[:, 2]])
+        data = {
+            "displacement": frozen(turned(state.displacement, turn)),
+            "stress": frozen(turned_stress(state.field.stress, state.turn + turn)),
+            "von_mises": state.field.von_mises,
+        }
+        bodies.append(Field(_name(i), frozen(points), state.mesh.triangles, data))
+    return ((states[0].angle, tuple(bodies)),)
+
+
+def ring_angle(design: Design, angle: Array) -> Array:
+    """Return how far the ring has turned at input angles (rad); contacts are given in its frame."""
+    return float(design.speeds.members["ring"]) * angle
 
 
 def turned(vectors: Array, angle: float) -> Array:
@@ -47,38 +162,14 @@ def turned(vectors: Array, angle: float) -> Array:
     return np.asarray(vectors @ np.array([[c, s], [-s, c]]))
 
 
-def drawing(stages: Stages, frames: int = 36) -> Drawing:
-    """Return at most `frames` pictures over one input turn.
-
-    Once contacts are solved these are solved positions, with the forces on the discs as arrows; nothing is solved here.
-    """
-    design = stages.design
-    if "contact" not in stages.__dict__:
-        angles = np.linspace(0.0, 2 * np.pi, frames, endpoint=False)
-        return Drawing(tuple(_frame(design, float(angle), ()) for angle in angles))
-    solved = stages.contact.fine.angle[:-1]
-    chosen = range(0, len(solved), -(-len(solved) // frames))
-    return Drawing(tuple(_frame(design, float(solved[i]), tuple(_arrows(stages, i))) for i in chosen))
+def turned_stress(stress: Array, angle: float) -> Array:
+    """Return stress (n, 4) xx, yy, zz, xy of a body in the axes from which the body is turned by an angle (rad)."""
+    xx, yy, zz, xy = stress.T
+    c, s = np.cos(angle), np.sin(angle)
+    x = c * c * xx + s * s * yy - 2 * c * s * xy
+    y = s * s * xx + c * c * yy + 2 * c * s * xy
+    return np.column_stack([x, y, zz, c * s * (xx - yy) + (c * c - s * s) * xy])
 
 
-def _frame(design: Design, angle: float, arrows: tuple[Arrow, ...]) -> DrawingFrame:
-    pose = _pose(design, angle)
-    lines = (*_ring(design), *_discs(design, pose), *_pins(design, pose), *_inside(design, pose), *_axes(design))
-    return DrawingFrame(f"{np.degrees(angle):.1f}°", lines, arrows)
-
-
-def _pose(design: Design, angle: float) -> Pose:
-    """Return the members on their ideal paths; elastic motion is too small to be seen."""
-    crank, ring = angle * design.mesh_speed, ring_angle(design, angle)
-    origin, lobes = np.zeros(2), design.flank.lobes
-    cranks = [crank + disc.crank for disc in design.discs]
-    centers = [design.flank.eccentricity * np.array([np.cos(a + ring), np.sin(a + ring)]) for a in cranks]
-    spins = [ring + disc.lead - a / lobes for a, disc in zip(cranks, design.discs, strict=True)]
-    return Pose(
-        Place(origin, ring),
-        Place(origin, ring - crank / lobes),
-        Place(origin, angle),
-        tuple(Place(center, spin) for center, spin in zip(centers, spins, strict=True)),
-        tuple(Place(center, a + ring) for center, a in zip(centers, cranks, strict=True)),
-        tuple(Place(center, design.cage_angle(crank) + ring) for center in centers),
-    )
+def _name(disc: int) -> str:
+    return f"disc {disc + 1}"

@@ -1,8 +1,9 @@
 """Reactions of the bearings of shaft and flange over a turn, and what the casing feels.
 
-*rigid*: members on their exact paths; discs and shafts balance by Newton–Euler, the contact forces come from the contact solution.
-*elastic*: the members' elastic motion, which the contact solution finds for every position, has accelerations; their inertia acts
-back through the same stiffnesses (dynamics.elastic). With every stiffness growing the second becomes the first.
+*rigid*: members on their exact paths; discs and shafts balance by Newton–Euler, the contact forces come from
+the contact solution. *elastic*: the members' elastic motion, which the contact solution finds for every
+position, has accelerations; their inertia acts back through the same stiffnesses (dynamics.elastic). With
+every stiffness growing the second becomes the first.
 """
 
 from __future__ import annotations
@@ -30,9 +31,10 @@ MEMBERS = ("shaft", "output")
 class Reactions:
     """Over n positions of one input turn, in the fixed frame.
 
-    `rigid` and `elastic` by member: reactions (n, 2 bearings, 2) on it in N; `eccentric` (n, d, 2) force of the discs on the shaft;
-    `casing` and `casing_rigid`: resultant on the casing. `mismatch` is how far the record is from closing after one turn, relative;
-    `residual` the difference between the sum of all forces on the casing and the members' inertia, relative to the bearing forces.
+    `rigid` and `elastic` by member: reactions (n, 2 bearings, 2) on it in N; `eccentric` (n, d, 2) force of
+    the discs on the shaft; `casing` and `casing_rigid`: resultant on the casing. `mismatch` is how far the
+    record is from closing after one turn, relative; `residual` the difference between the sum of all forces
+    on the casing and the members' inertia, relative to the bearing forces.
     """
 
     angle: Array

@@ -1,4 +1,6 @@
-"""Stiffness of the eccentric bearing under its load: rollers by ISO/TS 16281 on a rigid ring, and on the disc's elastic bore."""
+"""Stiffness of the eccentric bearing under its load: rollers by ISO/TS 16281 on a rigid ring, and on the
+disc's elastic bore.
+"""
 
 from __future__ import annotations
 
@@ -20,6 +22,7 @@ class SeatStiffness:
     """Stiffness (4, 4) on x, y (N/m) and tilt about x, y (N·m/rad) of one eccentric bearing at the first position.
 
     `elastic` is None when the disc is rigid.
+
     """
 
     rigid: Array

@@ -20,8 +20,8 @@ FAMILIES = ("ring", "output", "bearing")
 class Touches:
     """Contacts of one kind over n positions, d discs, c contacts each.
 
-    `force` (n, d, c) N, `pressure` (n, d, c) Pa, `half_width` (n, d, c) m, `point` and `normal` (n, d, c, 2) in the ring's frame, the normal out of
-    the disc.
+    `force` (n, d, c) N, `pressure` (n, d, c) Pa, `half_width` (n, d, c) m, `point` and `normal` (n, d, c, 2)
+    in the ring's frame, the normal out of the disc.
     """
 
     force: Array
@@ -45,8 +45,8 @@ class Touches:
 class Series:
     """Contacts over the input angle (n,) in rad; the last position is a full turn after the first.
 
-    `crank` (n,) angle relative to the ring, `motion` (n, k) and `stiffness` (n, k, k) on `names`; `imbalance` and `penetration` are the
-    largest relative residuals, `iterations` the most Newton steps.
+    `crank` (n,) angle relative to the ring, `motion` (n, k) and `stiffness` (n, k, k) on `names`; `imbalance`
+    and `penetration` are the largest relative residuals, `iterations` the most Newton steps.
     """
 
     rung: str

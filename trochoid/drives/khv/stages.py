@@ -47,7 +47,9 @@ class Pair(Generic[T]):
 
 @dataclass(frozen=True)
 class Solved:
-    """Contacts over a turn on the finer of two mesh levels, on the coarser one (None for rigid discs), and their levels."""
+    """Contacts over a turn on the finer of two mesh levels, on the coarser one (None for rigid discs), and
+    their levels.
+    """
 
     fine: Series
     coarse: Series | None

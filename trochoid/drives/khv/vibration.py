@@ -16,7 +16,9 @@ from trochoid.kinematics.errors import TrochoidError
 
 @dataclass(frozen=True, slots=True)
 class CasingVibration:
-    """Vibration by the stiffness-aware (or, with rigid bearings, the rigid) load, by the rigid load alone, and the zone."""
+    """Vibration by the stiffness-aware (or, with rigid bearings, the rigid) load, by the rigid load alone,
+    and the zone.
+    """
 
     elastic: Vibration
     rigid: Vibration
