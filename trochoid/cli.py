@@ -32,6 +32,7 @@ _ASK = click.option("--ask", metavar="Q1,Q2", help="Compute these quantities ins
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line (sys.argv by default) and return its exit code; nothing but a code ever leaves."""
+    console.one_thread()
     try:
         with (
             console.stoppable(),

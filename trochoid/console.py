@@ -9,6 +9,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
 
+def one_thread() -> None:
+    """Keep linear algebra to one thread: its matrices are small here, and thread pools that meet make it ten times slower.
+
+    Must come before numpy is loaded; a number of threads that the user has set stays.
+    """
+    for pool in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS"):
+        os.environ.setdefault(pool, "1")
+
+
 @contextmanager
 def progress() -> Iterator[Callable[[str], None]]:
     """Yield what announces a stage: a status line on a terminal, nothing in a pipe."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
+from trochoid.drives.khv import entries as show
+from trochoid.drives.khv.entries import ANGLE, Entries, entry, named, numbered
 from trochoid.drives.khv.stages import Stages
 from trochoid.kinematics.types import Array
 
@@ -18,23 +19,7 @@ if TYPE_CHECKING:
 
 MANY = 12  # traces in one row of a figure beyond which a map is clearer
 PER_LOBE = 40  # points of the profile
-ANGLE = "input_angle"
 BEARINGS = ("input shaft A", "input shaft B", "output flange A", "output flange B")
-SHARING, OUTPUT, ECCENTRIC = "Load sharing of the ring pins", "Output pins", "Eccentric bearings"
-PRESSURE, STIFFNESS, ERROR = "Contact pressure", "Torsional stiffness", "Transmission error"
-REACTIONS, CHANGE, VELOCITY = "Bearing reactions", "Elastic less rigid reactions", "Vibration velocity"
-CAPTIONS = {
-    SHARING: "Force of every ring pin on each disc, and how many pins of each disc carry load.",
-    OUTPUT: "Force between each output pin's roller and its hole.",
-    ECCENTRIC: "Force of each disc on its eccentric, and the share of every roller between them.",
-    PRESSURE: "Largest Hertz pressure of each kind of contact on each disc.",
-    STIFFNESS: "Torque per angle at the output with the input held: the tangent at the operating torque.",
-    REACTIONS: "Size of the force on shaft and flange in each of their bearings, A at the lower z.",
-    VELOCITY: "Amplitude at the multiples of the input speed, by the vector sum of all forces on the casing.",
-}
-
-Entry = tuple[tuple[str, ...], npt.NDArray[Any], dict[str, str]]
-Entries = dict[str, Entry]
 
 
 def dataset(stages: Stages, wanted: Collection[str]) -> xarray.Dataset | None:
@@ -49,53 +34,35 @@ def dataset(stages: Stages, wanted: Collection[str]) -> xarray.Dataset | None:
     entries, coordinates = _profile(stages), _places(stages)
     if "contact" in wanted:
         entries |= _contact(stages)
-        coordinates |= _angle(stages.contact.fine.angle[:-1])
+        coordinates[ANGLE] = entry((ANGLE,), stages.contact.fine.angle[:-1], "rad", "input angle")
     if "reactions" in wanted:
         entries |= _reactions(stages)
-        coordinates |= _angle(stages.reactions.fine.angle)
+        coordinates[ANGLE] = entry((ANGLE,), stages.reactions.fine.angle, "rad", "input angle")
     if "vibration" in wanted:
         entries |= _vibration(stages)
         found = stages.vibration.fine.elastic
-        names = np.array([point.name for point in found.points])
-        coordinates["frequency"] = _entry(("frequency",), found.frequencies, "Hz", "frequency")
-        coordinates["point"] = _entry(("point",), names, "", "point on the casing")
+        points = tuple(point.name for point in found.points)
+        coordinates["frequency"] = entry(("frequency",), found.frequencies, "Hz", "frequency")
+        coordinates["point"] = named("point", points, "point on the casing")
     used = {dim for dims, *_ in entries.values() for dim in dims}
-    return xarray.Dataset(entries, {name: entry for name, entry in coordinates.items() if name in used})
-
-
-def _entry(
-    dims: tuple[str, ...], values: npt.ArrayLike, units: str, name: str, figure: str = "", **more: str
-) -> Entry:
-    shown = {"figure": figure} if figure else {}
-    said = {"caption": CAPTIONS[figure]} if figure in CAPTIONS else {}
-    return dims, np.asarray(values), {"units": units, "long_name": name} | shown | said | more
-
-
-def _angle(values: Array) -> Entries:
-    return {ANGLE: _entry((ANGLE,), values, "rad", "input angle")}
+    return xarray.Dataset(entries, {name: place for name, place in coordinates.items() if name in used})
 
 
 def _places(stages: Stages) -> Entries:
-    """Return the coordinates that name discs, contacts, bearings and axes; all are counted from 1."""
-    drive = stages.scene.drive
-    numbered = {
-        "disc": (drive.discs, "disc, in the order of z"),
-        "pin": (drive.pins, "ring pin, the first on the ring's x axis, counter-clockwise"),
-        "output_pin": (
-            drive.output_pins.count,
-            "output pin, the first at output_pins.phase, counter-clockwise",
+    """Return the coordinates of discs, contacts, bearings and axes; all numbers count from 1."""
+    drive, pins = stages.scene.drive, stages.scene.drive.output_pins
+    rollers = drive.eccentric_bearing.rollers
+    return {
+        "disc": numbered("disc", drive.discs, "disc, in the order of z"),
+        "pin": numbered("pin", drive.pins, "ring pin, the first on the ring's x axis, counter-clockwise"),
+        "output_pin": numbered(
+            "output_pin", pins.count, "output pin, the first at its phase, counter-clockwise"
         ),
-        "roller": (drive.eccentric_bearing.rollers, "roller of the eccentric bearing, counter-clockwise"),
+        "roller": numbered("roller", rollers, "roller of the eccentric bearing, counter-clockwise"),
+        "bearing": named("bearing", BEARINGS, "bearing, A at the lower z"),
+        "axis": named("axis", ("x", "y"), "direction in the fixed frame"),
+        "direction": named("direction", ("x", "y", "z"), "direction in the fixed frame"),
     }
-    named = {
-        "bearing": (BEARINGS, "bearing, A at the lower z"),
-        "axis": (("x", "y"), "direction in the fixed frame"),
-        "direction": (("x", "y", "z"), "direction in the fixed frame"),
-    }
-    entries = {
-        dim: _entry((dim,), np.arange(1, count + 1), "", said) for dim, (count, said) in numbered.items()
-    }
-    return entries | {dim: _entry((dim,), np.array(names), "", said) for dim, (names, said) in named.items()}
 
 
 def _profile(stages: Stages) -> Entries:
@@ -104,31 +71,29 @@ def _profile(stages: Stages) -> Entries:
     t = np.linspace(0.0, flank.period, PER_LOBE * flank.lobes + 1)
     x, y = flank.point(t).T
     return {
-        "profile_parameter": _entry(
-            dims, t, "rad", "parameter of the theoretical flank, 2π/lobes for a lobe"
-        ),
-        "profile_x": _entry(dims, x, "m", "theoretical flank in the disc's frame, x"),
-        "profile_y": _entry(dims, y, "m", "theoretical flank in the disc's frame, y"),
-        "profile_curvature": _entry(
+        "profile_parameter": entry(dims, t, "rad", "parameter of the theoretical flank, 2π/lobes for a lobe"),
+        "profile_x": entry(dims, x, "m", "theoretical flank in the disc's frame, x"),
+        "profile_y": entry(dims, y, "m", "theoretical flank in the disc's frame, y"),
+        "profile_curvature": entry(
             dims, flank.curvature(t), "1/m", "curvature of the flank, positive where convex"
         ),
-        "profile_pressure_angle": _entry(dims, flank.pressure_angle(t), "rad", "pressure angle"),
+        "profile_pressure_angle": entry(dims, flank.pressure_angle(t), "rad", "pressure angle"),
     }
 
 
 def _contact(stages: Stages) -> Entries:
     series, disc = stages.contact.fine, (ANGLE, "disc")
     on_eccentric = np.linalg.norm(_on_eccentrics(stages), axis=-1)
-    loaded = (series.ring.force[:-1] > 0).sum(axis=2)
-    entries = {
-        **_forces(series.ring, "pin", "ring pin", SHARING),
-        "loaded_ring_pins": _entry(disc, loaded, "", "loaded ring pins", SHARING),
-        **_forces(series.output, "output_pin", "output pin", OUTPUT),
-        "eccentric_force": _entry(disc, on_eccentric, "N", "force on the eccentric", ECCENTRIC),
+    made = {
+        **_forces(series.ring, "pin", "ring pin", show.SHARING),
+        "disc_torque_share": entry(disc, _torque_share(series), "", "share of the torque", show.SHARING),
+        "loaded_ring_pins": entry(disc, (series.ring.force[:-1] > 0).sum(axis=2), "", "loaded ring pins"),
+        **_forces(series.output, "output_pin", "output pin", show.OUTPUT),
+        "eccentric_force": entry(disc, on_eccentric, "N", "force on the eccentric", show.ECCENTRIC),
     }
     if series.bearing is not None:
-        entries |= _forces(series.bearing, "roller", "roller", ECCENTRIC)
-    return entries | _pressures(series) | _flange(stages)
+        made |= _forces(series.bearing, "roller", "roller", show.ECCENTRIC)
+    return made | _pressures(series) | _output(stages)
 
 
 def _forces(touches: Touches, dim: str, name: str, figure: str) -> Entries:
@@ -136,23 +101,21 @@ def _forces(touches: Touches, dim: str, name: str, figure: str) -> Entries:
     dims, key = (ANGLE, "disc", dim), name.replace(" ", "_")
     look = {"plot": "heatmap"} if touches.force.shape[2] > MANY else {}
     return {
-        f"{key}_force": _entry(dims, touches.force[:-1], "N", f"{name} force", figure, **look),
-        f"{key}_pressure": _entry(dims, touches.pressure[:-1], "Pa", f"largest pressure at each {name}"),
+        f"{key}_force": entry(dims, touches.force[:-1], "N", f"{name} force", figure, **look),
+        f"{key}_pressure": entry(dims, touches.pressure[:-1], "Pa", f"largest pressure at each {name}"),
     }
 
 
 def _pressures(series: Series) -> Entries:
     kinds = {"ring_pin": series.ring, "output_pin": series.output, "roller": series.bearing}
+    largest = {
+        key: touches.pressure[:-1].max(axis=2) for key, touches in kinds.items() if touches is not None
+    }
     return {
-        f"{key}_pressure_max": _entry(
-            (ANGLE, "disc"),
-            touches.pressure[:-1].max(axis=2),
-            "Pa",
-            f"pressure, {key.replace('_', ' ')}s",
-            PRESSURE,
+        f"{key}_pressure_max": entry(
+            (ANGLE, "disc"), values, "Pa", f"pressure, {key.replace('_', ' ')}s", show.PRESSURE
         )
-        for key, touches in kinds.items()
-        if touches is not None
+        for key, values in largest.items()
     }
 
 
@@ -165,27 +128,32 @@ def _on_eccentrics(stages: Stages) -> Array:
     return np.asarray((inertia - series.ring.resultant - series.output.resultant)[:-1])
 
 
-def _flange(stages: Stages) -> Entries:
+def _torque_share(series: Series) -> Array:
+    """Share (n, d) of each disc in the torque of the output pins about the axis; 0 without torque."""
+    point, push = series.output.point[:-1], series.output.force[:-1, ..., None] * series.output.normal[:-1]
+    torque = (point[..., 0] * push[..., 1] - point[..., 1] * push[..., 0]).sum(axis=2)
+    whole = torque.sum(axis=1, keepdims=True)
+    return np.asarray(np.divide(torque, whole, out=np.zeros_like(torque), where=whole != 0))
+
+
+def _output(stages: Stages) -> Entries:
     """Return stiffness and lag at the driven member: the flange, or the ring when the flange is held.
 
-    Seen from the ring, the flange lags by z_p/z_c times what the ring lags seen from the flange; torques likewise.
+    Seen from the ring, the flange lags by z_p/z_c times what the ring lags seen from the flange, and the flange's
+    torque is z_c/z_p of the ring's.
     """
     drive, series = stages.scene.drive, stages.contact.fine
     share = 1.0 if drive.fixed == "ring" else drive.lobes / drive.pins
     lag = share * series.twist[:-1]
     stiffness = series.torsional_stiffness[:-1] / share**2
     mean = float(lag.mean())
-    caption = (
-        "Lag of the loaded output behind its ideal angle, less its mean over the turn, the wind-up of "
-        f"{np.degrees(mean) * 60:.4g} arcmin."
-    )
     said = "lag of the loaded output behind its ideal angle"
+    caption = f"{said.capitalize()}, less its mean over the turn, the wind-up of {np.degrees(mean) * 60:.4g} arcmin."
+    error = entry((ANGLE,), lag - mean, "rad", "transmission error", show.ERROR, caption=caption)
     return {
-        "torsional_stiffness": _entry((ANGLE,), stiffness, "N*m/rad", "torsional stiffness", STIFFNESS),
-        "transmission_error": _entry(
-            (ANGLE,), lag - mean, "rad", "transmission error", ERROR, caption=caption
-        ),
-        "output_lag": _entry((ANGLE,), lag, "rad", said),
+        "torsional_stiffness": entry((ANGLE,), stiffness, "N*m/rad", "torsional stiffness", show.STIFFNESS),
+        "transmission_error": error,
+        "output_lag": entry((ANGLE,), lag, "rad", said),
     }
 
 
@@ -194,39 +162,35 @@ def _reactions(stages: Stages) -> Entries:
     parts = (ANGLE, "bearing", "axis")
     models = {"rigid": found.rigid, "elastic": found.elastic}
     forces = {
-        name: np.concatenate([v["shaft"], v["output"]], axis=1) for name, v in models.items() if v is not None
+        k: np.concatenate([v["shaft"], v["output"]], axis=1) for k, v in models.items() if v is not None
     }
-    entries: Entries = {}
+    made: Entries = {}
     for name, force in forces.items():
         size = np.linalg.norm(force, axis=-1)
-        entries[f"reaction_{name}"] = _entry(parts[:2], size, "N", f"reaction, {name}", REACTIONS)
-        entries[f"reaction_{name}_components"] = _entry(
-            parts, force, "N", f"components of the {name} reaction"
-        )
+        made[f"reaction_{name}"] = entry(parts[:2], size, "N", f"reaction, {name}", show.REACTIONS)
+        made[f"reaction_{name}_components"] = entry(parts, force, "N", f"components of the {name} reaction")
     if "elastic" in forces:
         change = np.linalg.norm(forces["elastic"] - forces["rigid"], axis=-1)
         because = f"Size of the vector difference: {found.reason}."
-        entries["reaction_change"] = _entry(parts[:2], change, "N", "difference", CHANGE, caption=because)
+        made["reaction_change"] = entry(parts[:2], change, "N", "difference", show.CHANGE, caption=because)
     disc, vector = (ANGLE, "disc", "axis"), (ANGLE, "direction")
-    entries["eccentric_force_components"] = _entry(
-        disc, found.eccentric, "N", "force of each disc on the shaft"
-    )
+    made["eccentric_force_components"] = entry(disc, found.eccentric, "N", "force of each disc on the shaft")
     for name, load in (("rigid", found.casing_rigid), ("elastic", found.casing)):
         said = f"on the casing about the origin, {name} reactions"
-        entries[f"casing_force_{name}"] = _entry(vector, load.force, "N", f"force {said}")
-        entries[f"casing_moment_{name}"] = _entry(vector, load.moment, "N*m", f"moment {said}")
-    return entries
+        made[f"casing_force_{name}"] = entry(vector, load.force, "N", f"force {said}")
+        made[f"casing_moment_{name}"] = entry(vector, load.moment, "N*m", f"moment {said}")
+    return made
 
 
 def _vibration(stages: Stages) -> Entries:
     found, dims = stages.vibration.fine, ("frequency", "point", "direction")
     elastic, rigid = (np.moveaxis(v.velocity, -1, 0) for v in (found.elastic, found.rigid))
-    band = "10–1000 Hz"
+    low, high = found.elastic.band
+    band = f"{low:g} to {high:g} Hz"
+    by_rigid = "by the rigid reactions"
     return {
-        "vibration_velocity": _entry(dims, elastic, "m/s", "velocity", VELOCITY, scale="log"),
-        "vibration_velocity_rigid": _entry(dims, rigid, "m/s", "velocity by the rigid reactions"),
-        "vibration_rms": _entry(dims[1:], found.elastic.rms, "m/s", f"rms velocity, {band}"),
-        "vibration_rms_rigid": _entry(
-            dims[1:], found.rigid.rms, "m/s", f"rms velocity by the rigid reactions, {band}"
-        ),
+        "vibration_velocity": entry(dims, elastic, "m/s", "velocity", show.VELOCITY, scale="log"),
+        "vibration_velocity_rigid": entry(dims, rigid, "m/s", f"velocity {by_rigid}"),
+        "vibration_rms": entry(dims[1:], found.elastic.rms, "m/s", f"rms velocity, {band}"),
+        "vibration_rms_rigid": entry(dims[1:], found.rigid.rms, "m/s", f"rms velocity {by_rigid}, {band}"),
     }

@@ -163,7 +163,7 @@ def turned(vectors: Array, angle: float) -> Array:
 
 
 def turned_stress(stress: Array, angle: float) -> Array:
-    """Return stress (n, 4) xx, yy, zz, xy of a body in the axes from which the body is turned by an angle (rad)."""
+    """Return stress (n, 4) xx, yy, zz, xy of a body turned by an angle (rad) in the axes that it is turned from."""
     xx, yy, zz, xy = stress.T
     c, s = np.cos(angle), np.sin(angle)
     x = c * c * xx + s * s * yy - 2 * c * s * xy
