@@ -1,6 +1,7 @@
 """Draw the stress of a run on its deformed discs: python examples/inspect_vtk.py out picture.png"""
 
 import sys
+from typing import Any
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ factor = 0.02 * discs.length / moved if moved > 0 else 1.0
 # contacts are far above the rest: end the colours where 99.8 % of the nodes lie
 top = max(np.percentile(disc["von_mises"], 99.8) for disc in discs) / 1e6
 
-plotter = pyvista.Plotter(off_screen=True, window_size=[1500, 800], shape=(1, len(discs)), border=False)
+plotter: Any = pyvista.Plotter(off_screen=True, window_size=[1500, 800], shape=(1, len(discs)), border=False)
 plotter.set_background("white", all_renderers=True)
 for column, disc in enumerate(discs):
     print(f"disc {column + 1}: {disc.n_points} nodes, largest stress {disc['von_mises'].max() / 1e6:.1f} MPa")

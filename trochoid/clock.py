@@ -1,5 +1,4 @@
-"""Times the stages of a run; time spent in a stage that another one calls for counts for the inner one only.
-"""
+"""Times the stages of a run; time spent in a stage that another one calls for counts for the inner one only."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 
 
 def one_thread() -> None:
-    """Keep linear algebra to one thread: its matrices are small here, and thread pools that meet make it ten times slower.
+    """Keep linear algebra to one thread: its matrices are small, and thread pools that meet are ten times slower.
 
     Must come before numpy is loaded; a number of threads that the user has set stays.
     """

@@ -7,7 +7,6 @@ import math
 import os
 import sys
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -32,7 +31,9 @@ def view(folder: Path, screenshot: Path | None = None) -> None:
     """
     collection = _collection(Path(folder))
     _choose_window(screenshot)
-    pyvista: Any = import_module("pyvista")
+    import pyvista as library
+
+    pyvista: Any = library
     reader = pyvista.PVDReader(str(collection))
     times = list(reader.time_values)
     bodies = _read(reader, times[0])

@@ -9,7 +9,6 @@ from trochoid.drives.khv.design import Design
 from trochoid.fem.body import Body, build_body
 from trochoid.fem.compliance import press
 from trochoid.fem.position import ElasticBody
-from trochoid.geometry.disc import disc_outline
 from trochoid.geometry.mesh import Mesh, mesh_outline
 from trochoid.geometry.outline import Outline
 
@@ -25,20 +24,8 @@ class Level:
 
 
 def outlines(design: Design, facets_per_lobe: int) -> tuple[Outline, ...]:
-    """Return the outline of each distinct disc; the flank is the theoretical one, modifications are in the gaps."""
-    d = design.drive
-    return tuple(
-        disc_outline(
-            design.flank,
-            d.bore_radius,
-            d.output_pins.count,
-            d.output_pins.circle_radius,
-            design.hole_radius,
-            angle,
-            facets_per_lobe,
-        )
-        for angle in design.hole_angles
-    )
+    """Return the outline of each distinct disc."""
+    return tuple(design.outline(body, facets_per_lobe) for body in range(len(design.hole_angles)))
 
 
 def meshes(design: Design, facets_per_lobe: int) -> tuple[Mesh, ...]:

@@ -86,7 +86,7 @@ def _contact(stages: Stages) -> Entries:
     on_eccentric = np.linalg.norm(_on_eccentrics(stages), axis=-1)
     made = {
         **_forces(series.ring, "pin", "ring pin", show.SHARING),
-        "disc_torque_share": entry(disc, _torque_share(series), "", "share of the torque", show.SHARING),
+        "disc_torque_share": entry(disc, _torque_share(stages), "", "share of the torque", show.SHARING),
         "loaded_ring_pins": entry(disc, (series.ring.force[:-1] > 0).sum(axis=2), "", "loaded ring pins"),
         **_forces(series.output, "output_pin", "output pin", show.OUTPUT),
         "eccentric_force": entry(disc, on_eccentric, "N", "force on the eccentric", show.ECCENTRIC),
@@ -128,12 +128,13 @@ def _on_eccentrics(stages: Stages) -> Array:
     return np.asarray((inertia - series.ring.resultant - series.output.resultant)[:-1])
 
 
-def _torque_share(series: Series) -> Array:
+def _torque_share(stages: Stages) -> Array:
     """Share (n, d) of each disc in the torque of the output pins about the axis; 0 without torque."""
-    point, push = series.output.point[:-1], series.output.force[:-1, ..., None] * series.output.normal[:-1]
+    touches = stages.contact.fine.output
+    point, push = touches.point[:-1], touches.force[:-1, ..., None] * touches.normal[:-1]
     torque = (point[..., 0] * push[..., 1] - point[..., 1] * push[..., 0]).sum(axis=2)
-    whole = torque.sum(axis=1, keepdims=True)
-    return np.asarray(np.divide(torque, whole, out=np.zeros_like(torque), where=whole != 0))
+    loaded = stages.design.flange_torque > 0
+    return np.asarray(torque / torque.sum(axis=1, keepdims=True) if loaded else np.zeros_like(torque))
 
 
 def _output(stages: Stages) -> Entries:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,6 +16,10 @@ from trochoid.kinematics.train import Speeds, khv_train, speeds
 from trochoid.kinematics.types import Array
 from trochoid.scene import Scene
 from trochoid.scene.drive_khv import KhvDrive
+
+if TYPE_CHECKING:
+    from trochoid.geometry.mass import Solid
+    from trochoid.geometry.outline import Outline
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,9 +68,33 @@ class Design:
     @cached_property
     def eccentric_mass(self) -> float:
         """Mass of one disc in kg when inertia is in the scene, else 0."""
-        from trochoid.drives.khv.mass import disc_solid
+        return self.disc_solid.mass if self.scene.has("inertia") else 0.0
 
-        return disc_solid(self).mass if self.scene.has("inertia") else 0.0
+    @cached_property
+    def disc_solid(self) -> Solid:
+        """Mass and inertia of one disc, by exact integrals along its outline."""
+        from trochoid.geometry.mass import prism, section
+
+        density = self.scene.materials[self.drive.material].density
+        return prism(section(self.outline(0)), self.drive.face_width, density)
+
+    def outline(self, body: int, facets_per_lobe: int = 12) -> Outline:
+        """Outline of a distinct disc; its flank is the theoretical one, modifications are in the gaps.
+
+        Raises Infeasible.
+        """
+        from trochoid.geometry.disc import disc_outline
+
+        d = self.drive
+        return disc_outline(
+            self.flank,
+            d.bore_radius,
+            d.output_pins.count,
+            d.output_pins.circle_radius,
+            self.hole_radius,
+            self.hole_angles[body],
+            facets_per_lobe,
+        )
 
     @property
     def crank_speed(self) -> float:

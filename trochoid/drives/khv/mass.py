@@ -5,10 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from trochoid.drives.khv.design import Design
-from trochoid.geometry.disc import disc_outline
-from trochoid.geometry.mass import Solid, cylinder, prism, section
-
-FACETS = 12  # an outline needs a number of facets; its section is integrated along the exact curves
+from trochoid.geometry.mass import Solid, cylinder
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,21 +23,6 @@ class Masses:
     ring: Solid
 
 
-def disc_solid(design: Design) -> Solid:
-    """Return mass and inertia of one disc by exact integrals along its outline."""
-    d = design.drive
-    outline = disc_outline(
-        design.flank,
-        d.bore_radius,
-        d.output_pins.count,
-        d.output_pins.circle_radius,
-        design.hole_radius,
-        design.hole_angles[0],
-        FACETS,
-    )
-    return prism(section(outline), d.face_width, density(design))
-
-
 def density(design: Design) -> float:
     """Return the density of all members, kg/m³."""
     return design.scene.materials[design.drive.material].density
@@ -53,7 +35,7 @@ def masses(design: Design) -> Masses:
     eccentrics = cylinder(design.race_radius, pack, rho, d.input_shaft.radius)
     ring_bore = d.pin_circle_radius + d.pin_radius
     return Masses(
-        disc_solid(design),
+        design.disc_solid,
         cylinder(d.pin_radius, d.ring.width, rho),
         cylinder(d.output_pins.roller_radius, pack, rho),
         cylinder(d.eccentric_bearing.roller_radius, d.eccentric_bearing.roller_length, rho),

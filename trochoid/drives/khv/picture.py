@@ -15,6 +15,7 @@ from trochoid.results.outcome import Arrow, Drawing, DrawingFrame, Field, FieldF
 
 FLANK_POINTS = 760
 SMALL, LARGE = 48, 120  # points of a circle
+NOISE = 1e-6  # N: what rounding of gaps leaves of a contact without load
 RING_PINS, OUTPUT_PINS, SHAFT, AXES = "ring pins", "output pins", "shaft and eccentrics", "pitch circles"
 
 
@@ -131,7 +132,7 @@ def _arrows(stages: Stages, position: int) -> Iterator[Arrow]:
         force = touches.force[position]
         points = turned(touches.point[position], turn)
         vectors = turned(-force[..., None] * touches.normal[position], turn)
-        for i, k in np.argwhere(force > 0).tolist():
+        for i, k in np.argwhere(force > NOISE).tolist():
             yield Arrow(frozen(points[i, k]), frozen(vectors[i, k]), _name(i), f"{name} {k + 1}")
 
 
