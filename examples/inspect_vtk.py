@@ -1,8 +1,8 @@
 """Draw the stress of a run on its deformed discs: python examples/inspect_vtk.py out picture.png"""
 
 import sys
-from typing import Any
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyvista

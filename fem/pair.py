@@ -141,8 +141,7 @@ class FlankPair:
     classical: bool = False
 
     def at(self, motion: Array, start: Array | None = None) -> State:
-        """Return gaps and arms at the displaced pose; the classical calculation takes the arms of the unmodified flank.
-        """
+        """Return gaps and arms at the displaced pose; the classical calculation takes the unmodified flank's arms."""
         (center, angle), (ring_center, ring_angle) = self.disc.displaced(motion), self.ring.displaced(motion)
         pins = self.pins @ rotation(ring_angle).T + ring_center
         local = (pins - center) @ rotation(angle)
@@ -194,8 +193,7 @@ class HolePair:
     seat: Seat | None
 
     def at(self, motion: Array, start: Array | None = None) -> State:
-        """Return gaps and arms at the displaced pose; a roller centred in its hole has no normal and touches nothing.
-        """
+        """Return gaps and arms at the displaced pose; a roller centred in its hole touches nothing."""
         (center, angle), (hub, hub_angle) = self.disc.displaced(motion), self.carrier.displaced(motion)
         turn = rotation(angle)
         holes = self.holes @ turn.T + center

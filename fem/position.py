@@ -102,7 +102,7 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
     states = [f.pair.at(motion if assembly.follow else np.zeros_like(motion)) for f in assembly.families]
     coupling = _coupling(assembly, states)
     solution = None
-    for step in range(NEWTON):
+    for step in range(1, NEWTON + 1):
         problem = _linearised(assembly, states, coupling, forces, motion)
         solution = lcp.solve(problem, solution)
         new = [f[:, 0] for f in solution.forces]
@@ -113,18 +113,16 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
         reach = float(np.abs(arms @ solution.motion).max(initial=0.0))
         forces, motion = new, solution.motion
         if change < SETTLED and moved <= SETTLED * reach:
-            break
+            contact = _result(assembly, states, problem, solution, step)
+            return _resolved(assembly, contact, coupling) if resolve else contact
         if moved > 0.0:
             states = [f.pair.at(motion, s.parameter) for f, s in zip(assembly.families, states, strict=True)]
         if moved > PLACE:
             coupling = _coupling(assembly, states)
-    else:
-        raise NotConverged(
-            f"contact: forces still change by {change:.1e} of the largest after {NEWTON} steps; "
-            "reduce the clearance or the load, or start from a neighbouring position"
-        )
-    contact = _result(assembly, states, problem, solution, step + 1)
-    return _resolved(assembly, contact, coupling) if resolve else contact
+    raise NotConverged(
+        f"contact: forces still change by {change:.1e} of the largest after {NEWTON} steps; "
+        "reduce the clearance or the load, or start from a neighbouring position"
+    )
 
 
 def _guess(assembly: Assembly, start: Contact | None) -> tuple[list[Array], Array]:

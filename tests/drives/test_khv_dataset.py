@@ -58,9 +58,9 @@ def test_everything_is_labelled(whole: xarray.Dataset) -> None:
         assert variable.attrs["long_name"]
         assert "units" in variable.attrs
     captions: dict[str, set[str]] = {}
-    for variable in whole.data_vars.values():
-        if "figure" in variable.attrs:
-            captions.setdefault(variable.attrs["figure"], set()).add(variable.attrs["caption"])
+    for shown in whole.data_vars.values():
+        if "figure" in shown.attrs:
+            captions.setdefault(shown.attrs["figure"], set()).add(shown.attrs["caption"])
     assert len(captions) == 9
     assert all(len(said) == 1 and said.pop().endswith(".") for said in captions.values())
 
@@ -87,7 +87,7 @@ def test_discs_share_the_whole_torque(whole: xarray.Dataset) -> None:
 
 @pytest.mark.exact
 def test_shaft_is_in_balance(whole: xarray.Dataset) -> None:
-    """Newton: the rigid reactions on the shaft and the forces of the discs on it sum to zero, and so do their moments."""
+    """Newton: rigid reactions on the shaft and forces of the discs on it sum to zero, and so do their moments."""
     shaft = whole.reaction_rigid_components.sel(bearing=["input shaft A", "input shaft B"])
     discs = whole.eccentric_force_components
     size = float(np.abs(discs).max())

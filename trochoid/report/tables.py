@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from trochoid.results import text
@@ -102,9 +102,10 @@ def _table(name: str, quantity: Quantity) -> Table:
     model = quantity.model or _shared_model(leaves)
     groups = [(key, _inner(part)) for key, part in parts.items()]
     columns = _shared_columns([group for _, group in groups])
-    head = tuple(map(text.label, columns))
+    units = {column: _shared_unit([group[column] for _, group in groups]) for column in columns}
+    head = tuple(f"{text.label(c)} ({units[c]})" if units[c] else text.label(c) for c in columns)
     if columns:
-        rows = [Row(text.label(key), tuple(_cell(group[c]) for c in columns)) for key, group in groups]
+        rows = [Row(text.label(k), tuple(_cell(group[c], units[c]) for c in columns)) for k, group in groups]
     else:
         rows = [_row(path, leaf, "" if model else leaf.model or "") for path, leaf in leaves]
     return Table(text.label(name), tuple(rows), head, model, quantity.note or "")
@@ -144,8 +145,17 @@ def _is_leaf(part: Quantity | Parts) -> bool:
     return isinstance(part, Quantity) and part.parts is None
 
 
-def _cell(part: Quantity | Parts) -> str:
-    return text.sentence(part) if isinstance(part, Quantity) else ""
+def _shared_unit(column: Sequence[Quantity | Parts]) -> str:
+    """Return the unit that all of a column have, which its head then names; else nothing."""
+    units = {part.unit for part in column if isinstance(part, Quantity)}
+    return text.pretty_unit(units.pop()) if len(units) == 1 else ""
+
+
+def _cell(part: Quantity | Parts, named: str) -> str:
+    """Return the value, without its unit where the column's head has `named` it."""
+    if not isinstance(part, Quantity):
+        return ""
+    return text.sentence(replace(part, unit="") if named else part)
 
 
 def _keys(entry: Any, path: str = "") -> Iterator[tuple[str, str]]:

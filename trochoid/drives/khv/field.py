@@ -11,21 +11,20 @@ from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.series import FAMILIES, solve_at
 from trochoid.fem.pair import rotation
 from trochoid.fem.position import Contact
-from trochoid.fem.stress import Press, StressField, stress_field
-from trochoid.geometry.mesh import Mesh
+from trochoid.fem.stress import Press
+from trochoid.fem.stress_field import StressField, stress_field
 from trochoid.kinematics.types import Array, frozen
 
 
 @dataclass(frozen=True, slots=True)
 class DiscState:
-    """One disc at one input angle: its mesh, its stress in its own frame, and its place.
+    """One disc at one input angle: its stress field in its own frame, and its place.
 
     `points` (n, 3) unloaded nodes in the ring's frame, `displacement` (n, 2) from there: elastic and rigid
     motion together; `turn` angle of the body's frame.
     """
 
     angle: float
-    mesh: Mesh
     field: StressField
     points: Array
     displacement: Array
@@ -43,17 +42,16 @@ def _state(design: Design, level: Level, contact: Contact, angle: float, i: int)
     crank = angle * design.mesh_speed + disc.crank
     turn = -crank / design.flank.lobes + disc.lead
     center = design.flank.eccentricity * np.array([np.cos(crank), np.sin(crank)])
-    mesh = level.meshes[disc.body]
     field = stress_field(
         level.bodies[disc.body], presses(design, contact, i, turn + float(contact.motion[3 * i + 2]))
     )
     turned = rotation(turn)
-    points = mesh.points @ turned.T + center
+    points = field.points @ turned.T + center
     offset = points - center
     x, y, spin = contact.motion[3 * i : 3 * i + 3]
     rigid = np.array([x, y]) + spin * np.stack([-offset[:, 1], offset[:, 0]], axis=-1)
     placed = np.column_stack([points, np.full(len(points), disc.z)])
-    return DiscState(angle, mesh, field, frozen(placed), frozen(field.displacement @ turned.T + rigid), turn)
+    return DiscState(angle, field, frozen(placed), frozen(field.displacement @ turned.T + rigid), turn)
 
 
 def presses(design: Design, contact: Contact, i: int, turn: float) -> list[Press]:

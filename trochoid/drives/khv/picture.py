@@ -148,7 +148,7 @@ def fields(stages: Stages) -> tuple[FieldFrame, ...]:
             "stress": frozen(turned_stress(state.field.stress, state.turn + turn)),
             "von_mises": state.field.von_mises,
         }
-        bodies.append(Field(_name(i), frozen(points), state.mesh.triangles, data))
+        bodies.append(Field(_name(i), frozen(points), state.field.triangles, data))
     return ((states[0].angle, tuple(bodies)),)
 
 
