@@ -104,8 +104,8 @@ def explain(response: Response, names: Sequence[str]) -> str:
         "elastic members leave their rigid paths and the inertia of that motion adds to the loads, "
         f"most of all in {names[int(np.argmax(effort))]}"
     )
-    if response.resonance is None:
-        return text
+    if response.resonance is None or abs(response.resonance.factor - 1.0) < 0.05:
+        return f"{text}; no harmonic comes near a natural frequency"
     peak = response.resonance
     return (
         f"{text}; harmonic {peak.harmonic} ({peak.frequency:.4g} Hz) meets the mode at "

@@ -16,8 +16,8 @@ print(f"{len(reader.time_values)} frame(s), the first at {reader.time_values[0]:
 
 moved = max(np.linalg.norm(disc["displacement"], axis=1).max() for disc in discs)
 factor = 0.02 * discs.length / moved if moved > 0 else 1.0
-# contacts are far above the rest: end the colours where 99.8 % of the nodes lie
-top = max(np.percentile(disc["von_mises"], 99.8) for disc in discs) / 1e6
+# nodes crowd at the contacts, whose stress is far above the rest: end the colours at their 60th percentile
+top = max(np.percentile(disc["von_mises"], 60) for disc in discs) / 1e6
 
 plotter: Any = pyvista.Plotter(off_screen=True, window_size=[1500, 800], shape=(1, len(discs)), border=False)
 plotter.set_background("white", all_renderers=True)

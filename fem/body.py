@@ -27,8 +27,8 @@ EDGES = ((0, 1, 3), (1, 2, 4), (2, 0, 5))  # corner, corner, mid node of each si
 class Body:
     """A factored plane body of unit thickness.
 
-    `neighbours` (m, 3) element across each side, −1 on the boundary; `held` (n,) nodes that D must stay off;
-    `solve` takes and gives (2n, k); `relief` is None for a held body.
+    `neighbours` (m, 3) element across each side, −1 on the boundary; `held` (n,) nodes of the supports, which D must stay
+    off; `solve` takes and gives (2n, k); `relief` is None for a held body.
     """
 
     mesh: Mesh
@@ -50,15 +50,12 @@ class Relief:
     """What balances a load on a free body.
 
     `modes` (2n, 3) rigid motions x, y, rotation about the origin; `weighted` = W·modes, the accelerations'
-    nodal loads; `gram` = modesᵀ W modes; `answer` = K⁻¹ W modes and `mean` = modesᵀ W K⁻¹ W modes, which give
-    the mean motion of any solution by reciprocity, without an integral over a singular field.
+    nodal loads, and what a motion's mean is measured with; `gram` = modesᵀ W modes.
     """
 
     modes: Array
     weighted: Array
     gram: Array
-    answer: Array
-    mean: Array
 
 
 def rigid_modes(points: Array) -> Array:
@@ -83,13 +80,13 @@ def build_body(mesh: Mesh, plane: Plane, supports: tuple[str, ...] = (), solver:
         if name not in mesh.edges:
             raise TrochoidError(f'no edge "{name}" to hold; the mesh has {", ".join(mesh.edges)}')
         held[mesh.edges[name].ravel()] = True
-    fixed = np.repeat(held, 2) if supports else _three_points(mesh, held)
+    fixed = np.repeat(held, 2) if supports else _three_points(mesh)
     solve = _reduced(parts, fixed, solver)
-    relief = None if supports else _relief(mesh, parts, solve)
+    relief = None if supports else _relief(mesh, parts)
     return Body(mesh, plane, parts, _neighbours(mesh), held, solve, relief)
 
 
-def _three_points(mesh: Mesh, held: BoolArray) -> BoolArray:
+def _three_points(mesh: Mesh) -> BoolArray:
     """Mark three degrees of freedom at two inner nodes as held; they carry no force."""
     boundary = np.unique(np.concatenate([edge.ravel() for edge in mesh.edges.values()]))
     corners = np.setdiff1d(np.unique(mesh.triangles[:3]), boundary)
@@ -105,7 +102,6 @@ def _three_points(mesh: Mesh, held: BoolArray) -> BoolArray:
     first = corners[np.argmax(clearance)]
     apart = np.linalg.norm(mesh.points[corners] - mesh.points[first], axis=1)
     second = corners[np.argmax(np.minimum(clearance / clearance.max(), apart / apart.max()))]
-    held[[first, second]] = True
     across = np.abs(mesh.points[second] - mesh.points[first])
     fixed = np.zeros(2 * len(mesh.points), dtype=bool)
     fixed[[2 * first, 2 * first + 1, 2 * second + int(across[0] > across[1])]] = True
@@ -124,11 +120,10 @@ def _reduced(parts: Elements, fixed: BoolArray, solver: str | None) -> Solve:
     return solve
 
 
-def _relief(mesh: Mesh, parts: Elements, solve: Solve) -> Relief:
+def _relief(mesh: Mesh, parts: Elements) -> Relief:
     modes = rigid_modes(mesh.points)
     weighted = modes * np.repeat(parts.weight, 2)[:, None]
-    answer = solve(weighted)
-    return Relief(modes, weighted, modes.T @ weighted, answer, weighted.T @ answer)
+    return Relief(modes, weighted, modes.T @ weighted)
 
 
 def _neighbours(mesh: Mesh) -> IntArray:

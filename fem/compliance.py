@@ -91,19 +91,33 @@ class Compliance:
     kernel: float
     asymmetry: float
 
+    def smooth(self, place: Weights, points: Array) -> Array:
+        """Return S (n, n) between points (n, 2) at these places."""
+        return self._smooth(place, _distances(points))
+
     def between(self, place: Weights, points: Array) -> Array:
         """Return the compliance (n, n) between points (n, 2) at these places; on the diagonal S alone,
         without the logarithm.
         """
+        distance = _distances(points)
+        result = self._smooth(place, distance)
+        np.fill_diagonal(distance, 1.0)
+        result -= self.kernel * np.log(distance)
+        return result
+
+    def _smooth(self, place: Weights, distance: Array) -> Array:
         gathered = self.table[place.columns[:, None, :, None], place.columns[None, :, None, :]]
         result: Array = np.einsum("ijab,ia,jb->ij", gathered, place.values, place.values, optimize=True)
-        offset = points[:, None] - points[None]
-        distance = np.hypot(offset[..., 0], offset[..., 1])
-        np.fill_diagonal(distance, 1.0)
         same = np.equal.outer(place.surface, place.surface)
-        result += np.where(same, place.kink, 0.0) * distance - self.kernel * np.log(distance)
+        result += np.where(same, place.kink, 0.0) * distance
         np.fill_diagonal(result, np.einsum("ia,ia->i", self.diagonal[place.columns], place.values))
         return result
+
+
+def _distances(points: Array) -> Array:
+    offset = points[:, None] - points[None]
+    distances: Array = np.hypot(offset[..., 0], offset[..., 1])
+    return distances
 
 
 def surface_weights(surface: Surface, position: Array) -> Weights:
@@ -177,7 +191,7 @@ def _columns(body: Body, stations: Stations, chosen: IntArray) -> Array:
         for i in chosen
     ]
     patches = [patch_load(body, load) for load in loads]
-    answer = solve_patches(body, loads, patches)
+    answer = solve_patches(body, patches)
     inward = -stations.normals
     columns = np.empty((len(stations.nodes), len(chosen)))
     for j, (load, patch) in enumerate(zip(loads, patches, strict=True)):
@@ -198,7 +212,7 @@ def _add_singular(body: Body, load: PointForce, patch: Patch, stations: Stations
     column[near] -= np.einsum("ki,ki->k", stations.normals[near], singular)
 
 
-def solve_patches(body: Body, loads: list[PointForce], patches: list[Patch]) -> Array:
+def solve_patches(body: Body, patches: Sequence[Patch]) -> Array:
     """Solve for the finite-element part (2n, k) of point forces; a free body is balanced by inertia relief
     and its mean motion removed.
     """
@@ -210,22 +224,8 @@ def solve_patches(body: Body, loads: list[PointForce], patches: list[Patch]) -> 
     r = body.relief
     total = np.linalg.solve(r.gram, r.modes.T @ rhs)
     answer = body.solve(rhs - r.weighted @ total)
-    for j, load in enumerate(loads):
-        # mean motion by reciprocity: what K⁻¹WR does at the loaded point, along the force
-        at_load = _nearest_value(body, load, r.answer)
-        mean = at_load @ load.force - r.mean @ total[:, j]
-        answer[:, j] -= r.modes @ np.linalg.solve(r.gram, mean)
-    return answer
-
-
-def _nearest_value(body: Body, load: PointForce, field: Array) -> Array:
-    """Return the field (2n, 3) at the loaded point as (3, 2): the mean of the loaded element's nodes
-    weighted to the point.
-    """
-    nodes = body.mesh.triangles[:, load.element]
-    distance = np.linalg.norm(body.mesh.points[nodes] - load.point, axis=1)
-    node = nodes[int(np.argmin(distance))]
-    return np.asarray(field.reshape(-1, 2, 3)[node].T)
+    mean = r.weighted.T @ answer + np.stack([patch.mean for patch in patches], axis=-1)
+    return np.asarray(answer - r.modes @ np.linalg.solve(r.gram, mean))
 
 
 def press(body: Body, loops: Sequence[Loop]) -> Compliance:

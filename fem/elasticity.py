@@ -19,10 +19,13 @@ from trochoid.kinematics.types import Array, IntArray
 
 @dataclass(frozen=True, slots=True)
 class Elements:
-    """Element data of a mesh: `stiffness` (m, 12, 12) for unit thickness, `dofs` (m, 12), nodal areas `weight` (n,)."""
+    """Element data of a mesh: `stiffness` (m, 12, 12) for unit thickness, `dofs` (m, 12), `areas` (m, 6) of the
+    elements' nodes in m² and their sums `weight` (n,) over the elements round a node.
+    """
 
     stiffness: Array
     dofs: IntArray
+    areas: Array
     weight: Array
     centroids: Array
 
@@ -46,11 +49,12 @@ def elements(mesh: Mesh, plane: Plane) -> Elements:
     for a in range(2):
         stiffness[:, :, a, :, a] += shear * laplace
     triangles = mesh.triangles.T
+    areas = np.einsum("ieq,eq->ei", values, basis.dx)
     weight = np.zeros(len(mesh.points))
-    np.add.at(weight, triangles, np.einsum("ieq,eq->ei", values, basis.dx))
+    np.add.at(weight, triangles, areas)
     dofs = np.stack([2 * triangles, 2 * triangles + 1], axis=-1).reshape(-1, 12)
     centroids = mesh.points[triangles[:, :3]].mean(axis=1)
-    return Elements(stiffness.reshape(-1, 12, 12), dofs, weight, centroids)
+    return Elements(stiffness.reshape(-1, 12, 12), dofs, areas, weight, centroids)
 
 
 def assemble(parts: Elements, size: int) -> csc_matrix:

@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from trochoid.fem.compliance import Surface, Weights, surface_weights
-from trochoid.kinematics.curve import ArcLength
+from trochoid.kinematics.curve import ArcLength, Circle
 from trochoid.kinematics.cycloid import Cycloid, Modification, gap
 from trochoid.kinematics.types import Array, IntArray, frozen
 
@@ -103,6 +103,10 @@ class Pair(Protocol):
         """Return gaps (c, m) at arc-length offsets (c, m) from the contact points."""
         ...
 
+    def turning(self, state: State, motion: Array, force: Array) -> Array:
+        """Return the stiffness (k, k) that forces (c,) give the motions because their arms turn with them."""
+        ...
+
 
 def arms_of(
     first: Member, second: Member, centers: tuple[Array, Array], point: Array, normal: Array
@@ -115,6 +119,24 @@ def _arm(member: Member, center: Array, point: Array, normal: Array) -> Array:
     r = point - center
     turning = r[:, 0] * normal[:, 1] - r[:, 1] * normal[:, 0]
     return np.column_stack([normal, turning]) @ member.moves
+
+
+def turning_of(
+    first: Member, second: Member, reach: tuple[Array, Array], normal: Array, bend: Array, force: Array
+) -> Array:
+    """Return Σ F ∂arm/∂motion (k, k), which is symmetric: the gaps' second derivatives.
+
+    `reach` (c, 2) from both members' centres to a point fixed to the second member, `bend` (c,) in 1/m the
+    curvature of the path on which that point keeps its distance from the first member's curve.
+    """
+    tangent, origin = np.stack([-normal[:, 1], normal[:, 0]], axis=-1), np.zeros(2)
+    slide = _arm(first, origin, reach[0], tangent) - _arm(second, origin, reach[1], tangent)
+    spin, other = first.moves[2], second.moves[2]
+    result = np.outer(spin, force @ slide)
+    result = result + result.T - (slide.T * (force * bend)) @ slide
+    result -= (force @ (reach[0] * normal).sum(axis=1)) * np.outer(spin, spin)
+    result += (force @ (reach[1] * normal).sum(axis=1)) * np.outer(other, other)
+    return np.asarray(result)
 
 
 def rotation(angle: float) -> Array:
@@ -140,6 +162,17 @@ class FlankPair:
     seat: Seat | None
     classical: bool = False
 
+    @staticmethod
+    def nominal(
+        disc: Member, ring: Member, flank: Cycloid, crank_angle: float, surface: Surface | None = None
+    ) -> FlankPair:
+        """Return an unmodified flank against all pins at a crank angle in rad; they press a `surface` of body 0."""
+        number = np.arange(flank.pins)
+        pins = Circle((0.0, 0.0), flank.pin_circle_radius).point(2 * np.pi * number / flank.pins)
+        start = flank.contact_parameter(number, crank_angle)
+        seat = None if surface is None else Seat.on(0, [surface] * flank.pins)
+        return FlankPair(disc, ring, flank, Modification(), 0.0, pins, start, ArcLength(flank), seat)
+
     def at(self, motion: Array, start: Array | None = None) -> State:
         """Return gaps and arms at the displaced pose; the classical calculation takes the unmodified flank's arms."""
         (center, angle), (ring_center, ring_angle) = self.disc.displaced(motion), self.ring.displaced(motion)
@@ -147,12 +180,11 @@ class FlankPair:
         local = (pins - center) @ rotation(angle)
         opening, t = gap(self.flank, self.modification, local, self.parameter if start is None else start)
         ground = self.flank.modified(self.modification)
-        outward = pins - (center + ground.point(t) @ rotation(angle).T)
         normal = ground.normal(t) @ rotation(angle).T
-        if (
-            self.modification.rotation
-        ):  # the flank is turned about the disc's centre; its normal points at the pin
-            normal = outward / np.linalg.norm(outward, axis=1)[:, None]
+        if self.modification.rotation:
+            # the flank itself is turned: by as much as its pin stands turned beside the unturned one
+            beside = ground.point(t) + (opening + self.flank.pin_radius)[:, None] * ground.normal(t)
+            normal = _turned_back(normal, local, beside)
         if self.classical:
             normal = self.flank.normal(self.parameter) @ rotation(angle).T
         point = pins - self.flank.pin_radius * normal
@@ -176,6 +208,22 @@ class FlankPair:
         ] * ground.normal(state.parameter)
         distance = np.linalg.norm(ground.point(t) - middle[:, None], axis=-1)
         return np.asarray(distance - self.flank.pin_radius + self.play)
+
+    def turning(self, state: State, motion: Array, force: Array) -> Array:
+        """Return the stiffness of turning arms; a pin's centre keeps its distance on a curve parallel to the flank."""
+        (center, _), (ring_center, ring_angle) = self.disc.displaced(motion), self.ring.displaced(motion)
+        pins = self.pins @ rotation(ring_angle).T + ring_center
+        bend = 1 / state.radius - 1 / self.flank.pin_radius
+        bend = bend / (1 + bend * (state.gap - self.play + self.flank.pin_radius))
+        reach = pins - center, pins - ring_center
+        return turning_of(self.disc, self.ring, reach, state.normal, bend, force)
+
+
+def _turned_back(vectors: Array, at: Array, turned: Array) -> Array:
+    """Turn vectors (c, 2) by the angle from points `turned` to points `at` (c, 2), about the origin."""
+    angle = np.arctan2(at[:, 1], at[:, 0]) - np.arctan2(turned[:, 1], turned[:, 0])
+    c, s = np.cos(angle), np.sin(angle)
+    return np.stack([c * vectors[:, 0] - s * vectors[:, 1], s * vectors[:, 0] + c * vectors[:, 1]], axis=-1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,3 +269,11 @@ class HolePair:
         # law of cosines between the roller's centre, the hole's centre and the point of the hole
         square = self.hole_radius**2 + apart**2 - 2 * self.hole_radius * apart * np.cos(angle)
         return np.sqrt(square) - self.roller_radius
+
+    def turning(self, state: State, motion: Array, force: Array) -> Array:
+        """Return the stiffness of turning arms; a roller's centre keeps its distance on a circle round the hole's."""
+        (center, _), (hub, hub_angle) = self.disc.displaced(motion), self.carrier.displaced(motion)
+        rollers = self.rollers @ rotation(hub_angle).T + hub
+        apart = self.hole_radius - self.roller_radius - state.gap
+        bend = -np.divide(1.0, apart, out=np.zeros_like(apart), where=apart > 0)
+        return turning_of(self.disc, self.carrier, (rollers - center, rollers - hub), state.normal, bend, force)

@@ -44,7 +44,7 @@ class Patch:
     """Load of one point force: `dofs` and `values` of the right-hand side, and the nodes where u = U + u_s.
 
     `elements` (e,) of D, and `border` (e, 6, 2): u_s at their nodes on Γ, zero at the others; inside D, u =
-    u_s + U − border.
+    u_s + U − border. `mean` (3,) is the area integral of the rigid motions x, y, rotation times u − U.
     """
 
     dofs: IntArray
@@ -52,6 +52,7 @@ class Patch:
     nodes: IntArray
     elements: IntArray
     border: Array
+    mean: Array
 
 
 def patch_load(body: Body, load: PointForce, radius: float = RADIUS) -> Patch:
@@ -63,7 +64,8 @@ def patch_load(body: Body, load: PointForce, radius: float = RADIUS) -> Patch:
     border = np.where(across >= 0, ~member[across], True)
     which, side = np.nonzero(border)
     sides = body.mesh.triangles[_SIDES[side].T, inside[which]]  # (3, k)
-    dofs, values = _boundary_traction(body, load, sides)
+    edges = _edges(body, load, sides)
+    dofs, values = _boundary_traction(load, sides, edges)
     gamma = np.unique(sides[:, across[which, side] >= 0])
     nodes = body.mesh.triangles[:, inside]
     on_gamma = np.isin(nodes, gamma)
@@ -80,6 +82,7 @@ def patch_load(body: Body, load: PointForce, radius: float = RADIUS) -> Patch:
         np.setdiff1d(nodes, gamma),
         inside,
         border_values,
+        _area_integral(body, load, edges) - _border_integral(body, inside, border_values),
     )
 
 
@@ -103,14 +106,52 @@ def _grow(body: Body, load: PointForce, radius: float) -> IntArray:
     return np.flatnonzero(inside)
 
 
-def _boundary_traction(body: Body, load: PointForce, sides: IntArray) -> tuple[IntArray, Array]:
-    """Integrate −t_s·v over sides (3, k) that run anticlockwise round D."""
-    nodes = body.mesh.points[sides]  # (3, k, 2)
+@dataclass(frozen=True, slots=True)
+class _Edges:
+    """Gauss points on the sides of D: `place` (k, q, 2) from the loaded point, `outward` (k, q, 2) normal times arc."""
+
+    place: Array
+    outward: Array
+
+
+def _edges(body: Body, load: PointForce, sides: IntArray) -> _Edges:
+    """Return the quadrature on sides (3, k) that run anticlockwise round D."""
+    nodes = body.mesh.points[sides] - load.point  # (3, k, 2)
     place = np.einsum("aq,akc->kqc", _SHAPE, nodes)
-    along = np.einsum("aq,akc->kqc", _SLOPE, nodes)
-    outward = np.stack([along[..., 1], -along[..., 0]], axis=-1)  # times the arc element
-    pull = flamant.traction((place - load.point).reshape(-1, 2), outward.reshape(-1, 2), load.force)
-    weighted = pull.reshape(*place.shape) * (0.5 * _GAUSS[1])[:, None]
-    values = -np.einsum("aq,kqc->akc", _SHAPE, weighted)
+    along = np.einsum("aq,akc->kqc", _SLOPE, nodes) * (0.5 * _GAUSS[1])[:, None]
+    return _Edges(place, np.stack([along[..., 1], -along[..., 0]], axis=-1))
+
+
+def _boundary_traction(load: PointForce, sides: IntArray, edges: _Edges) -> tuple[IntArray, Array]:
+    """Integrate −t_s·v over the sides (3, k)."""
+    pull = flamant.traction(edges.place.reshape(-1, 2), edges.outward.reshape(-1, 2), load.force)
+    values = -np.einsum("aq,kqc->akc", _SHAPE, pull.reshape(*edges.place.shape))
     dofs = np.stack([2 * sides, 2 * sides + 1], axis=-1)
     return dofs.ravel(), values.ravel()
+
+
+def _area_integral(body: Body, load: PointForce, edges: _Edges) -> Array:
+    """Return ∫_D of the rigid motions times u_s (3,), as integrals over the sides.
+
+    With u_s = L ln r + B(θ), ∫ u_s r dr = r²(u_s − L/2)/2 and ∫ r u_s r dr = r³(u_s − L/3)/3.
+    """
+    place, outward = edges.place.reshape(-1, 2), edges.outward.reshape(-1, 2)
+    flux = np.einsum("ni,ni->n", place, outward)
+    u, growth = (
+        flamant.displacement(body.plane, place, load.inward, load.force),
+        -body.plane.kernel * load.force,
+    )
+    shift = 0.5 * flux @ (u - growth / 2)
+    turn = _cross(place, u - growth / 3) @ flux / 3 + _cross(load.point, shift)
+    return np.append(shift, turn)
+
+
+def _border_integral(body: Body, inside: IntArray, border: Array) -> Array:
+    """Return the rigid motions times `border` over D (3,), by the weights that measure every mean."""
+    weighted = border * body.parts.areas[inside][:, :, None]
+    places = body.mesh.points[body.mesh.triangles[:, inside].T]
+    return np.append(weighted.sum(axis=(0, 1)), _cross(places, weighted).sum())
+
+
+def _cross(a: Array, b: Array) -> Array:
+    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])

@@ -17,7 +17,9 @@ from trochoid.fem.compliance import solve_patches
 from trochoid.fem.elasticity import nodal_stress
 from trochoid.fem.hertz import hertz_stress_in_plane
 from trochoid.fem.material import Plane
+from trochoid.fem.pair import rotation
 from trochoid.fem.patch import Patch, PointForce, patch_load
+from trochoid.fem.position import Touch
 from trochoid.kinematics.types import Array, IntArray
 
 
@@ -49,6 +51,16 @@ class State:
     patches: tuple[Patch, ...]
     moves: Array
     smooth: Array
+
+
+def pressed(touch: Touch, edges: Sequence[str], turn: float, width: float) -> list[Press]:
+    """Return what a body feels of one family of contacts, in its own frame.
+
+    `edges` (c,) names of the edges pressed, `turn` angle of the body's frame in rad, `width` of its face in m.
+    """
+    normals = touch.state.normal @ rotation(turn)
+    values = zip(edges, touch.state.parameter, normals, touch.force / width, touch.half_width, strict=True)
+    return [Press(edge, float(t), n, float(load), float(a)) for edge, t, n, load, a in values if load > 0]
 
 
 def solve_state(body: Body, presses: Sequence[Press]) -> State:

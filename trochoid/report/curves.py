@@ -48,6 +48,11 @@ class Curve:
         return float(np.nanmin(self.y, initial=np.inf))
 
     @property
+    def highest(self) -> float:
+        """Largest value, minus infinity when there is no number."""
+        return float(np.nanmax(self.y, initial=-np.inf))
+
+    @property
     def spectrum(self) -> bool:
         """Whether the curve has lines at single frequencies."""
         return self.x_units == "Hz"

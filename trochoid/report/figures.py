@@ -51,9 +51,13 @@ def _spec(panels: Sequence[Panel]) -> dict[str, Any]:
     for row, domain in enumerate(_domains(heights)):
         panel, suffix = panels[row], "" if row == 0 else str(row + 1)
         axes = {"xaxis": f"x{suffix}", "yaxis": f"y{suffix}"}
-        drawn = heat_map(panel, domain) if panel.heat else lines(panel, named, f"legend{suffix}")
+        drawn = (
+            heat_map(panel, domain, _range(panels, panel))
+            if panel.heat
+            else lines(panel, named, f"legend{suffix}")
+        )
         traces += [trace | axes for trace in drawn]
-        layout[f"legend{suffix}"] = layout["legend"] | {"y": domain[1]}
+        layout[f"legend{suffix}"] = layout["legend"] | {"y": domain[1], "yanchor": "top"}
         layout[f"xaxis{suffix}"] = _x_axis(panels, row) | {"anchor": axes["yaxis"]}
         layout[f"yaxis{suffix}"] = _y_axis(panel) | {"anchor": axes["xaxis"], "domain": list(domain)}
     most = max((len(panel.curves) for panel in panels if not panel.heat), default=0)
@@ -61,6 +65,12 @@ def _spec(panels: Sequence[Panel]) -> dict[str, Any]:
     layout["showlegend"] = most > 1
     layout["annotations"] = list(_row_titles(panels, _domains(heights)))
     return {"data": traces, "layout": layout}
+
+
+def _range(panels: Sequence[Panel], panel: Panel) -> tuple[float, float]:
+    """Return lowest and highest value of all maps of the same variable: they share one scale of colours."""
+    curves = [curve for other in panels if other.variables == panel.variables for curve in other.curves]
+    return min(curve.lowest for curve in curves), max(curve.highest for curve in curves)
 
 
 def _height(panel: Panel, alone: bool) -> int:

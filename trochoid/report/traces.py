@@ -37,16 +37,19 @@ def lines(panel: Panel, named: set[str], legend: str) -> list[dict[str, Any]]:
     return traces
 
 
-def heat_map(panel: Panel, domain: tuple[float, float]) -> list[dict[str, Any]]:
-    """Return the map of angle and index, with its colour bar beside `domain`."""
+def heat_map(panel: Panel, domain: tuple[float, float], limits: tuple[float, float]) -> list[dict[str, Any]]:
+    """Return the map of angle and index, coloured between `limits` (SI), with its colour bar beside `domain`."""
     bar = {"title": {"text": panel.unit.symbol, "side": "top"}, "thickness": 12, "outlinewidth": 0}
     degree, unit = panel.x_unit.symbol, panel.unit.symbol
+    low, high = (limit * panel.unit.factor for limit in limits)
+    colours = {"zmin": low, "zmax": high} if low < high else {}
     return [
         {
             "type": "heatmap",
             "x": style.packed(panel.first.x * panel.x_unit.factor),
             "y": [panel.name(curve) for curve in panel.curves],
             "z": style.packed(np.array([curve.y for curve in panel.curves]) * panel.unit.factor),
+            **colours,
             "colorscale": [list(stop) for stop in style.HEAT],
             "colorbar": bar | {"y": sum(domain) / 2, "len": domain[1] - domain[0]},
             "hovertemplate": f"%{{y}}, %{{x:.1f}}{degree}<br>%{{z:.5~g}} {unit}<extra></extra>",

@@ -83,20 +83,19 @@ def stress_max(s: Stages) -> Quantity:
 
 
 def transmission_error(s: Stages) -> Quantity:
-    """Loaded transmission error of the output over a turn, and its mean, the wind-up."""
+    """Loaded transmission error of the driven member over a turn, and its mean, the wind-up."""
+    scale = 1 / (ARCMIN * s.design.leverage)
     return Quantity(
         parts={
-            "peak_to_peak": over_turn(s, lambda x: float(np.ptp(x.twist[:-1])) / ARCMIN * 60, "arcsec"),
-            "wind_up": over_turn(s, lambda x: float(x.twist[:-1].mean()) / ARCMIN, "arcmin"),
+            "peak_to_peak": over_turn(s, lambda x: float(np.ptp(x.twist[:-1])) * scale * 60, "arcsec"),
+            "wind_up": over_turn(s, lambda x: float(x.twist[:-1].mean()) * scale, "arcmin"),
         }
     )
 
 
 def torsional_stiffness(s: Stages) -> Quantity:
     """Torque per angle at the output with the input held, mean over a turn: the tangent at the load."""
-    # at the driven member: the flange, or the ring, whose torque is larger and whose turning then is smaller
-    leverage = s.design.flank.pins / s.design.flank.lobes if s.design.drive.fixed == "output" else 1.0
-    scale = ARCMIN * leverage**2
+    scale = ARCMIN * s.design.leverage**2  # from the flange to the driven member
     answer = over_turn(s, lambda x: float(x.torsional_stiffness[:-1].mean()) * scale, "N*m/arcmin")
     note = "tangent at the operating torque, mean over a turn"
     return replace(answer, note=note if answer.value else "nothing touches: the drive does not resist")

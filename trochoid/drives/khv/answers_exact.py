@@ -6,6 +6,7 @@ import numpy as np
 
 from trochoid.drives.khv.numbers import RPM, exact, over_turn
 from trochoid.drives.khv.stages import Stages
+from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Quantity
 
 
@@ -92,12 +93,16 @@ def balance(s: Stages) -> Quantity:
     return Quantity(
         parts={
             "inertia_force_of_a_disc": Quantity(force, "N", None, "exact"),
-            "unbalanced_force": Quantity(float(np.linalg.norm(vectors.sum(axis=0))), "N", None, "exact"),
-            "unbalanced_couple": Quantity(
-                float(np.linalg.norm((vectors * z[:, None]).sum(axis=0))), "N*m", None, "exact"
-            ),
+            "unbalanced_force": Quantity(_settled(vectors), "N", None, "exact"),
+            "unbalanced_couple": Quantity(_settled(vectors * z[:, None]), "N*m", None, "exact"),
         }
     )
+
+
+def _settled(vectors: Array) -> float:
+    """Return the length of the sum of vectors (n, 2), 0 when only rounding is left."""
+    total = float(np.linalg.norm(vectors.sum(axis=0)))
+    return total if total > 1e-12 * float(np.abs(vectors).max(initial=0.0)) else 0.0
 
 
 def mass(s: Stages) -> Quantity:

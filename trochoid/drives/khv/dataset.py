@@ -172,8 +172,7 @@ def _reactions(stages: Stages) -> Entries:
         made[f"reaction_{name}_components"] = entry(parts, force, "N", f"components of the {name} reaction")
     if "elastic" in forces:
         change = np.linalg.norm(forces["elastic"] - forces["rigid"], axis=-1)
-        because = f"Size of the vector difference: {found.reason}."
-        made["reaction_change"] = entry(parts[:2], change, "N", "difference", show.CHANGE, caption=because)
+        made["reaction_change"] = entry(parts[:2], change, "N", "difference", show.CHANGE)
     disc, vector = (ANGLE, "disc", "axis"), (ANGLE, "direction")
     made["eccentric_force_components"] = entry(disc, found.eccentric, "N", "force of each disc on the shaft")
     for name, load in (("rigid", found.casing_rigid), ("elastic", found.casing)):

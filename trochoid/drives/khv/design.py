@@ -109,8 +109,12 @@ class Design:
     @property
     def flange_torque(self) -> float:
         """Torque on the flange in N·m: the output torque, less the input's when the ring is driven."""
-        torque = self.scene.operation.output_torque
-        return torque if self.drive.fixed == "ring" else torque * self.flank.lobes / self.flank.pins
+        return self.scene.operation.output_torque / self.leverage
+
+    @property
+    def leverage(self) -> float:
+        """Torque of the driven member over the flange's: z_p/z_c when the ring is driven; angles have the inverse ratio."""
+        return 1.0 if self.drive.fixed == "ring" else self.flank.pins / self.flank.lobes
 
     @property
     def pitch_radius(self) -> float:

@@ -18,6 +18,7 @@ CAPTIONS = {
     PRESSURE: "Largest Hertz pressure of each kind of contact on each disc.",
     STIFFNESS: "Torque per angle at the output with the input held: the tangent at the operating torque.",
     REACTIONS: "Size of the force on shaft and flange in each of their bearings, A at the lower z.",
+    CHANGE: "Size of the vector difference: what the inertia of the members' elastic motion adds.",
     VELOCITY: "Amplitude at the multiples of the input speed, by the vector sum of all forces on the casing.",
 }
 

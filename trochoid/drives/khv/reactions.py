@@ -80,7 +80,7 @@ def reactions(design: Design, series: Series, masses: Masses, damping: float) ->
         response = _response(design, series, masses, damping, turn)
         elastic = {m: rigid[m] + _change(design, layout, m, response) for m in MEMBERS}
         casing = total([casing_rigid, _inertia_wrench(design, series.names, response.inertia)])
-        reason = explain(response, series.names)
+        reason = explain(response, [_spoken(name) for name in series.names])
     return Reactions(
         frozen(series.angle[:-1]),
         rigid,
@@ -93,6 +93,14 @@ def reactions(design: Design, series: Series, masses: Masses, damping: float) ->
         float(np.abs(mismatch).max() / size),
         residual,
     )
+
+
+def _spoken(name: str) -> str:
+    """Return a motion's name in words: "rotation of disc 1" for "disc0.rotation"."""
+    member, motion = name.split(".")
+    if member.startswith("disc"):
+        member = f"disc {int(member[4:]) + 1}"
+    return f"{motion.replace('_', ' about ')} of {member}"
 
 
 def _turned(vectors: Array, angle: Array) -> Array:
