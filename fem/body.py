@@ -27,8 +27,8 @@ EDGES = ((0, 1, 3), (1, 2, 4), (2, 0, 5))  # corner, corner, mid node of each si
 class Body:
     """A factored plane body of unit thickness.
 
-    `neighbours` (m, 3) element across each side, −1 on the boundary; `held` (n,) nodes of the supports, which D must stay
-    off; `solve` takes and gives (2n, k); `relief` is None for a held body.
+    `neighbours` (m, 3) element across each side, −1 on the boundary; `held` (n,) nodes of the supports, which D
+    must stay off; `solve` takes and gives (2n, k); `relief` is None for a held body.
     """
 
     mesh: Mesh

@@ -30,7 +30,7 @@ class Face:
 
 
 def face_compliance(face: Face, width: Array) -> Array:
-    """Return (m, m) in 1/Pa: normal displacement at the strips' centres per unit line load on strips of `width` (m,)."""
+    """Return (m, m) in 1/Pa: normal displacement at strips' centres per unit line load on strips of `width` (m,)."""
     smooth = face.compliance.smooth(surface_weights(face.surface, face.place), face.points)
     smooth[np.diag_indices_from(smooth)] += face.surface.kink * width / 4
     return curve_compliance(face.compliance.kernel, face.points, width) + smooth

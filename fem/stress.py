@@ -70,7 +70,7 @@ def solve_state(body: Body, presses: Sequence[Press]) -> State:
     patches = tuple(patch_load(body, load) for load in loads)
     answer = np.zeros((body.size, 1))
     if active:
-        answer = solve_patches(body, list(loads), list(patches)).sum(axis=1)
+        answer = solve_patches(body, patches).sum(axis=1)
     moves = answer.reshape(-1, 2)[body.mesh.triangles.T].copy()
     for patch in patches:
         moves[patch.elements] -= patch.border

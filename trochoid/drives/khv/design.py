@@ -113,7 +113,7 @@ class Design:
 
     @property
     def leverage(self) -> float:
-        """Torque of the driven member over the flange's: z_p/z_c when the ring is driven; angles have the inverse ratio."""
+        """Torque of the driven member over the flange's, z_p/z_c when the ring is driven; angles go the other way."""
         return 1.0 if self.drive.fixed == "ring" else self.flank.pins / self.flank.lobes
 
     @property

@@ -1,0 +1,1 @@
+"""What accuracy costs: measured numbers beside their targets (python -m benchmarks)."""
