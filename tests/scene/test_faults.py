@@ -91,8 +91,8 @@ def faults_of(text: str, *overrides: str | Override) -> tuple[Fault, ...]:
             "drive.input_shaft.bearing_positions: given a list of one; need a list of 2, each a length",
         ),
         (
-            "[0.20, 0.20, 0.25]",
-            "[0.2, 0, 1]",
+            "[0.06, 0.06, 0.08]",
+            "[0.06, 0, 1]",
             "casing.inertia.1: given 0 kg*m^2; need a moment of inertia greater than 0",
         ),
         (

@@ -67,7 +67,7 @@ def test_scene_is_frozen_and_dumps_si() -> None:
     dump = scene.model_dump(mode="json")
     assert dump["drive"]["pin_radius"] == 0.005
     assert dump["effects"][0] == {"type": "elastic_contact"}
-    assert dump["casing"]["mounts"][0]["stiffness"] == [5e5, 8e5, 5e5]
+    assert dump["casing"]["mounts"][0]["stiffness"] == [5e6, 8e6, 5e6]
 
 
 @pytest.mark.property
