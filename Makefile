@@ -3,7 +3,7 @@
 
 SHELL := /bin/sh
 .NOTPARALLEL:
-.PHONY: run test check lock clean help
+.PHONY: run test check benchmark lock clean help
 
 # One thread per linear-algebra pool: numpy, scipy and cvxopt bring one each, and they would fight for the cores.
 test: export OMP_NUM_THREADS := 1
@@ -25,6 +25,10 @@ check: ## style, types and the import contract
 	.venv/bin/ruff format --check
 	.venv/bin/mypy
 	.venv/bin/lint-imports --no-logo
+
+benchmark: ## measured speed and accuracy beside their targets; takes a minute or two
+	@sh .ci/setup run
+	@.venv/bin/python -m benchmarks
 
 lock: ## choose the newest dependencies that pyproject.toml allows and lock them
 	@sh .ci/lock

@@ -55,7 +55,8 @@ def _convergence(holes: int) -> Table:
     finest = turns[LEVELS[-1]]
     rows: list[Row] = []
     for level in LEVELS:
-        found, name, target = turns[level], f"{level} facets per lobe", TARGETS.get(level)
+        found, name = turns[level], f"{level} facets per lobe"
+        target = None if holes else TARGETS.get(level)
         if level != LEVELS[-1]:
             rotation = np.abs(found.rotation / finest.rotation - 1).max()
             stiffness = np.abs(found.stiffness / finest.stiffness - 1).max()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -12,9 +12,10 @@ from benchmarks.run import SCENE
 from benchmarks.table import Row, Table
 from trochoid.drives.khv.estimate import position_errors
 from trochoid.drives.khv.series import Series
+from trochoid.drives.khv.stages import COARSEST
 from trochoid.kinematics.types import Array
 
-LEVELS = (6, 12, 24)  # coarse and fine give the estimate, the third the true error of the second
+LEVELS = (8, 16, 32)  # coarse and fine give the estimate, the third the true error of the second
 ENOUGH, FACTOR = 0.95, 20.0
 
 
@@ -23,7 +24,10 @@ def measure() -> list[Table]:
     discs = [_of_disc(disc.turn(level, 0)) for level in LEVELS]
     stages = trochoid.Run(trochoid.load(str(SCENE), ["ask.positions=60"])).stages
     drives = [_of_drive(stages.series(stages.level(level))) for level in LEVELS]
-    return [_judged("error estimate, disc with its bore held", discs), _judged("error estimate, drive", drives)]
+    return [
+        _judged("error estimate, disc with its bore held", discs),
+        _judged("error estimate, drive", drives),
+    ]
 
 
 def _of_disc(found: disc.Turn) -> dict[str, Array]:
@@ -41,14 +45,16 @@ def _of_drive(found: Series) -> dict[str, Array]:
     }
 
 
-def _judged(title: str, levels: list[Mapping[str, Array]]) -> Table:
+def _judged(title: str, levels: Sequence[Mapping[str, Array]]) -> Table:
     coarse, fine, finest = levels
     rows: list[Row] = []
     for name, value in fine.items():
         estimate, true = position_errors(value, coarse[name]), np.abs(value - finest[name])
         brackets = float(np.mean(estimate >= true))
         close = float(np.mean(estimate <= FACTOR * true))
+        excess = float(np.sqrt(np.mean(estimate**2) / np.mean(true**2)))
         rows.append(Row(f"{name}: true error", float(true.max() / np.abs(value).max())))
+        rows.append(Row(f"{name}: estimate / true error, rms", excess, "", FACTOR))
         rows.append(Row(f"{name}: share bracketed", brackets, "", ENOUGH, at_least=True))
         rows.append(Row(f"{name}: share within {FACTOR:g} times", close, "", ENOUGH, at_least=True))
     how = f"{LEVELS[1]} facets per lobe, estimated with {LEVELS[0]}, true against {LEVELS[2]}; 60 positions"

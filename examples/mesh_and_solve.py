@@ -31,7 +31,8 @@ pair = FlankPair.nominal(disc, ring, flank, crank, elastic.compliance.surfaces["
 pins = Family("pins", pair, kernel=np.full(20, steel.kernel / width), round_side=np.zeros(20))
 contact = solve_position(Assembly((pins,), (elastic,), np.zeros((1, 1)), load=np.array([torque])))
 touch, angle = contact.touches["pins"], disc.displaced(contact.motion)[1]
-print("pin forces in N:", *(f"{force:.2f}" for force in touch.force))
+print(f"the disc turns by {1e6 * contact.motion[0]:.3f} urad; pin forces in N:")
+print(*(f"{force:.2f}" for force in touch.force))
 field = stress_field(body, pressed(touch, ["flank"] * 20, angle, width))
 points, moved = (np.pad(plane, ((0, 0), (0, 1))) for plane in (field.points, field.displacement))
 data = {"displacement": moved, "von_mises": field.von_mises}

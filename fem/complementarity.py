@@ -8,14 +8,14 @@ rest on (bearings), zero for free motions.
 
 Proximal steps make every motion stiff (spring κ to the last a): the problem is then a linear complementarity
 problem with a P-matrix. It is solved by a primal-dual active set (block pivoting) and, when that makes no
-progress, by Murty's single pivots, which end after finitely many. κ falls step by step until the springs
-carry nothing.
+progress, by Dantzig's single pivots, which take few steps where few strips touch. κ falls step by step until
+the springs carry nothing. What rounding then leaves (a stiff contact beside a soft one) is refined away.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,6 +26,8 @@ BLOCK_PIVOTS = 10  # without progress, before single pivots
 PIVOTS = 4000
 STEPS = 60
 TOLERANCE = 1e-12
+ROUNDING = 1e-13  # of the force and gap scale: what is left of the equations, before they are refined
+REFINEMENTS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +55,10 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """Strip forces per group (c, m) in N, `motion` (k,), pivots, and the residuals relative to force and gap scale."""
+    """Strip forces per group (c, m) in N, `motion` (k,), pivots, and residuals relative to the scales of force and gap.
+
+    `imbalance` is what Rᵀp + K a misses of F, `penetration` the deepest w below zero.
+    """
 
     forces: tuple[Array, ...]
     motion: Array
@@ -70,8 +75,8 @@ class _Step:
     opening: list[Array]
 
 
-def solve(problem: Problem, start: Solution | None = None) -> Solution:
-    """Solve the contact problem, from the active set and motion of `start` when given.
+def solve(problem: Problem, start: Solution | None = None, most: int = PIVOTS) -> Solution:
+    """Solve the contact problem, from the active set and motion of `start` when given, with at `most` so many pivots.
 
     Raises NotConverged when a loaded motion is resisted by nothing, or the pivots run out.
     """
@@ -82,22 +87,23 @@ def solve(problem: Problem, start: Solution | None = None) -> Solution:
         if start is None
         else [a.copy() for a in start.active]
     )
+    softest = np.minimum(scale.stiffness / scale.motion**2 * 1e-9, kappa)
     if start is not None:
-        kappa = kappa * 1e-6
+        kappa = np.maximum(kappa * 1e-6, softest)
     pivots = 0
     for _ in range(STEPS):
-        step, active, used = _lcp(problem, active, motion, kappa, scale)
+        anchor = motion
+        step, active, used = _lcp(problem, active, anchor, kappa, scale, most)
         pivots += used
-        held = kappa * (step.motion - motion)
-        imbalance = float(np.max(np.abs(held) * scale.motion, initial=0.0)) / scale.force
-        moved = float(np.max(np.abs(step.motion - motion) / scale.motion, initial=0.0))
         motion = step.motion
-        if imbalance <= 1e-13:
-            return Solution(
-                tuple(step.forces), motion, tuple(active), pivots, imbalance, _penetration(step) / scale.gap
-            )
-        kappa = kappa * 1e-3 if moved < 1e3 * scale.gap else kappa
-        kappa = np.maximum(kappa, scale.stiffness / scale.motion**2 * 1e-9)
+        held = _missing(problem, step)
+        imbalance = scale.of_force(problem, held, step)
+        if imbalance <= ROUNDING:
+            deepest = _penetration(step) / scale.length(problem, step)
+            return Solution(tuple(step.forces), motion, tuple(active), pivots, imbalance, deepest)
+        moved = float(np.max(np.abs(motion - anchor) / scale.motion, initial=0.0))
+        kappa = kappa * 1e-3 if moved < scale.far else kappa
+        kappa = np.maximum(kappa, softest)
     raise NotConverged(_unresisted(problem, held, scale))
 
 
@@ -106,16 +112,32 @@ class _Scale:
     force: float
     gap: float
     stiffness: float
+    far: float  # a step that no contact of this problem could resist
     motion: Array  # motion of each kind that moves the contact by one unit of length
+
+    def of_force(self, problem: Problem, load: Array, step: _Step) -> float:
+        """Return loads on the motions relative to the problem's load, or to what the contacts carry if that is more."""
+        carried = np.zeros(len(load))
+        for group, force in zip(problem.groups, step.forces, strict=True):
+            carried += np.einsum("cmk,cm->k", np.abs(group.arms), np.abs(force))
+        largest = float((carried * self.motion).max(initial=0.0))
+        return float(np.abs(load * self.motion).max(initial=0.0)) / max(self.force, largest)
+
+    def length(self, problem: Problem, step: _Step) -> float:
+        """Return the length that w is small against: the largest |g − R a|."""
+        apart = [
+            np.abs(np.where(np.isfinite(g.gap), g.gap, 0.0) - g.arms @ step.motion) for g in problem.groups
+        ]
+        return max(self.gap, *(float(a.max(initial=0.0)) for a in apart))
 
 
 def _scales(problem: Problem) -> tuple[_Scale, Array]:
     """Sizes of force, gap and stiffness, and the first proximal springs: soft enough that the load closes every gap."""
     arms = np.concatenate([g.arms.reshape(-1, g.arms.shape[-1]) for g in problem.groups])
-    lever = np.abs(arms).max(axis=0, initial=0.0)
-    unit = 1.0 / np.where(lever > 0, lever, 1.0)
     compliance = np.concatenate([np.einsum("cii->ci", g.local).ravel() for g in problem.groups])
     typical = float(np.median(compliance[compliance > 0])) if np.any(compliance > 0) else 1.0
+    lever = _levers(np.abs(arms).max(axis=0, initial=0.0), np.diag(problem.springs))
+    unit = 1.0 / np.where(lever > 0, lever, 1.0)
     gaps = np.concatenate([g.gap[np.isfinite(g.gap)] for g in problem.groups])
     reach = float(np.ptp(gaps)) if len(gaps) else 0.0
     force = float(np.abs(problem.load * unit).max(initial=0.0))
@@ -124,40 +146,86 @@ def _scales(problem: Problem) -> tuple[_Scale, Array]:
         force = gap / typical if gap > 0 else 1.0
     gap = gap or typical * force
     distance = 10 * (reach + typical * force)
-    return _Scale(force, gap, 1 / typical, unit), force / distance / unit**2
+    far = 1e3 * (gap + float(compliance.max(initial=0.0)) * force)
+    return _Scale(force, gap, 1 / typical, far, unit), force / distance / unit**2
+
+
+def _levers(arms: Array, springs: Array) -> Array:
+    """Return the largest arm (k,) of each motion; where contacts have none, what its spring suggests beside others."""
+    held = (springs > 0) & (arms > 0)
+    if not held.any():
+        return arms
+    return np.maximum(arms, np.sqrt(np.maximum(springs, 0.0) * np.median(arms[held] ** 2 / springs[held])))
 
 
 def _lcp(
-    problem: Problem, active: list[BoolArray], anchor: Array, kappa: Array, scale: _Scale
+    problem: Problem, active: list[BoolArray], anchor: Array, kappa: Array, scale: _Scale, most: int
 ) -> tuple[_Step, list[BoolArray], int]:
     """Solve the complementarity problem with proximal springs by block pivoting, then by single pivots."""
-    best, patience = np.inf, BLOCK_PIVOTS
-    for pivot in range(PIVOTS):
-        step = _equalities(problem, active, anchor, kappa)
-        bad = _violations(step, active, scale)
+
+    def solved(touching: Sequence[BoolArray]) -> _Step:
+        return _refined(
+            problem, touching, _equalities(problem, touching, anchor, kappa), anchor, kappa, scale
+        )
+
+    best, patience, pivots = np.inf, BLOCK_PIVOTS, 0
+    while patience > 0:
+        step, pivots = solved(active), pivots + 1
+        bad = _violations(problem, step, active, scale)
         count = sum(int(b.sum()) for b in bad)
         if count == 0:
-            return step, active, pivot + 1
-        if count < best:
-            best, patience = count, BLOCK_PIVOTS
-        else:
-            patience -= 1
-        if patience > 0:
-            active = [a ^ b for a, b in zip(active, bad, strict=True)]
-        else:  # Murty: the last violated strip alone changes sides
-            group = max(i for i, b in enumerate(bad) if b.any())
-            active = [a.copy() for a in active]
-            last = np.flatnonzero(bad[group].ravel())[-1]
-            active[group].ravel()[last] ^= True
+            return step, active, pivots
+        best, patience = (count, BLOCK_PIVOTS) if count < best else (best, patience - 1)
+        active = [a ^ b for a, b in zip(active, bad, strict=True)]
+    return _one_by_one(problem, solved, scale, pivots, most)
+
+
+def _one_by_one(
+    problem: Problem,
+    solved: Callable[[Sequence[BoolArray]], _Step],
+    scale: _Scale,
+    pivots: int,
+    most: int,
+) -> tuple[_Step, list[BoolArray], int]:
+    """Press the deepest strip until it just touches, let go whichever comes free on the way, and so on (Dantzig)."""
+    active = [np.zeros(g.gap.shape, dtype=bool) for g in problem.groups]
+    step, pivots = solved(active), pivots + 1
+    while pivots < most:
+        waiting = [np.where(a, np.inf, w) for a, w in zip(active, step.opening, strict=True)]
+        group = int(np.argmin([w.min(initial=np.inf) for w in waiting]))
+        if waiting[group].min(initial=np.inf) >= -TOLERANCE * scale.length(problem, step):
+            return step, active, pivots
+        active[group].ravel()[np.argmin(waiting[group])] = True
+        forces = step.forces
+        while pivots < most:
+            step, pivots = solved(active), pivots + 1
+            forces, freed = _freed_first(active, forces, step.forces)
+            if freed is None:
+                break
+            active[freed[0]].ravel()[freed[1]] = False
     raise NotConverged(
-        f"contact: no complementary solution after {PIVOTS} pivots; check that gaps and compliances are finite and the "
+        f"contact: no complementary solution after {most} pivots; check that gaps and compliances are finite and the "
         "stiffness of the bodies differs by less than 1e9"
     )
 
 
-def _violations(step: _Step, active: Sequence[BoolArray], scale: _Scale) -> list[BoolArray]:
-    limit = TOLERANCE * scale.gap
-    pull = TOLERANCE * scale.force
+def _freed_first(
+    active: Sequence[BoolArray], before: Sequence[Array], after: Sequence[Array]
+) -> tuple[list[Array], tuple[int, int] | None]:
+    """Go from one set of forces towards another until a force vanishes; return the forces there, its (group, strip)."""
+    share, freed = 1.0, None
+    for number, (a, p, q) in enumerate(zip(active, before, after, strict=True)):
+        falling = np.flatnonzero((a & (q < 0)).ravel())
+        if len(falling):
+            reached = p.ravel()[falling] / (p.ravel()[falling] - q.ravel()[falling])
+            if reached.min() < share:
+                share, freed = float(reached.min()), (number, int(falling[np.argmin(reached)]))
+    return [p + share * (q - p) for p, q in zip(before, after, strict=True)], freed
+
+
+def _violations(problem: Problem, step: _Step, active: Sequence[BoolArray], scale: _Scale) -> list[BoolArray]:
+    limit = TOLERANCE * scale.length(problem, step)
+    pull = TOLERANCE * max(scale.force, *(float(p.max(initial=0.0)) for p in step.forces))
     return [
         np.where(a, p < -pull, w < -limit) for a, p, w in zip(active, step.forces, step.opening, strict=True)
     ]
@@ -179,16 +247,53 @@ def _equalities(problem: Problem, active: Sequence[BoolArray], anchor: Array, ka
         stiffness = stiffness + np.einsum("cmk,cml->kl", group.arms, e.arms)
         load = load + np.einsum("cmk,cm->k", group.arms, e.gap)
     total, motion = _totals(problem.coupling, t_one, t_gap, t_arm, stiffness, load)
-    pressed = problem.coupling @ total
-    forces, opening, first = [], [], 0
-    for e, group in zip(eliminated, problem.groups, strict=True):
-        share = pressed[first : first + len(group.gap)]
-        first += len(group.gap)
-        force = e.arms @ motion - e.gap - e.one * share[:, None]
-        forces.append(force)
-        bent = np.einsum("cij,cj->ci", group.local, force)
-        opening.append(bent + group.gap + share[:, None] - group.arms @ motion)
-    return _Step(forces, motion, opening)
+    shares = _split(problem, problem.coupling @ total)
+    forces = [e.arms @ motion - e.gap - e.one * s[:, None] for e, s in zip(eliminated, shares, strict=True)]
+    return _Step(forces, motion, _opening(problem, forces, motion, shares))
+
+
+def _split(problem: Problem, contacts: Array) -> list[Array]:
+    """Cut a value per contact (C,) into groups."""
+    return np.split(contacts, np.cumsum([len(g.gap) for g in problem.groups])[:-1])
+
+
+def _opening(
+    problem: Problem, forces: Sequence[Array], motion: Array, shares: Sequence[Array]
+) -> list[Array]:
+    """Return w per group; `shares` is what all contacts together press each one open by."""
+    return [
+        np.einsum("cij,cj->ci", g.local, p) + g.gap + s[:, None] - g.arms @ motion
+        for g, p, s in zip(problem.groups, forces, shares, strict=True)
+    ]
+
+
+def _refined(
+    problem: Problem, active: Sequence[BoolArray], step: _Step, anchor: Array, kappa: Array, scale: _Scale
+) -> _Step:
+    """Solve with the same matrix for what rounding left of the equations, until it is nothing."""
+    for _ in range(REFINEMENTS):
+        left = [np.where(a, w, 0.0) for a, w in zip(active, step.opening, strict=True)]
+        unmet = max((float(np.abs(w).max(initial=0.0)) for w in left), default=0.0)
+        missing = _missing(problem, step) - kappa * (step.motion - anchor)
+        settled = unmet <= ROUNDING * scale.length(problem, step)
+        if settled and scale.of_force(problem, missing, step) <= 0.1 * ROUNDING:
+            break
+        groups = tuple(replace(g, gap=w) for g, w in zip(problem.groups, left, strict=True))
+        rest = replace(problem, groups=groups, load=missing)
+        change = _equalities(rest, active, np.zeros_like(kappa), kappa)
+        forces = [a + b for a, b in zip(step.forces, change.forces, strict=True)]
+        motion = step.motion + change.motion
+        shares = _split(problem, problem.coupling @ np.concatenate([p.sum(axis=1) for p in forces]))
+        step = _Step(forces, motion, _opening(problem, forces, motion, shares))
+    return step
+
+
+def _missing(problem: Problem, step: _Step) -> Array:
+    """Return F − Rᵀp − K a."""
+    carried = problem.springs @ step.motion
+    for group, force in zip(problem.groups, step.forces, strict=True):
+        carried = carried + np.einsum("cmk,cm->k", group.arms, force)
+    return np.asarray(problem.load - carried)
 
 
 def tangent(problem: Problem, solution: Solution) -> Array:

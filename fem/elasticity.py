@@ -39,7 +39,7 @@ def elements(mesh: Mesh, plane: Plane) -> Elements:
     """Integrate the element matrices; a point's degrees of freedom are 2·node and 2·node+1."""
     basis = Basis(quadratic_mesh(mesh), ElementTriP2(), intorder=4)
     gradients = np.stack([basis.basis[i][0].grad for i in range(6)])  # (6, 2, m, q)
-    values = np.stack([np.broadcast_to(basis.basis[i][0].value, basis.dx.shape) for i in range(6)])
+    values = np.stack([np.broadcast_to(np.asarray(basis.basis[i][0]), basis.dx.shape) for i in range(6)])
     g = gradients.transpose(2, 3, 0, 1).reshape(*basis.dx.shape, 12)
     products = (g * basis.dx[:, :, None]).transpose(0, 2, 1) @ g
     products = products.reshape(-1, 6, 2, 6, 2)  # (m, i, a, j, b) = ∫ ∂a φi ∂b φj

@@ -17,6 +17,7 @@ from trochoid.kinematics.types import Array
 
 Solve = Callable[[Array], Array]
 BLOCK = 128  # columns solved at once: large enough for level-3 BLAS, small enough for the cache
+RECOVERED = 1e-3  # of a known solution: rounding leaves 1e-8, a pivot that is rounding leaves everything
 
 
 def installed() -> tuple[str, ...]:
@@ -30,7 +31,11 @@ def factorise(matrix: csc_matrix, solver: str | None = None) -> Solve:
     Raises TrochoidError when the matrix is not positive definite: a body that is not held.
     """
     name = solver or installed()[0]
-    return _cholmod(matrix) if name == "cholmod" else _superlu(matrix)
+    solve = _cholmod(matrix) if name == "cholmod" else _superlu(matrix)
+    known = np.cos(np.arange(matrix.shape[0], dtype=np.float64))[:, None]
+    if not np.abs(solve(matrix @ known) - known).max() < RECOVERED:
+        raise TrochoidError("the stiffness matrix is singular to rounding: the body is not held")
+    return solve
 
 
 def _superlu(matrix: csc_matrix) -> Solve:

@@ -276,4 +276,6 @@ class HolePair:
         rollers = self.rollers @ rotation(hub_angle).T + hub
         apart = self.hole_radius - self.roller_radius - state.gap
         bend = -np.divide(1.0, apart, out=np.zeros_like(apart), where=apart > 0)
-        return turning_of(self.disc, self.carrier, (rollers - center, rollers - hub), state.normal, bend, force)
+        return turning_of(
+            self.disc, self.carrier, (rollers - center, rollers - hub), state.normal, bend, force
+        )

@@ -10,6 +10,7 @@ the same coupling.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,10 +24,14 @@ from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
 
 NEWTON = 40
+QUICK = 30  # pivots within which a step with turning arms must be found
 WIDENINGS = 12  # of the strips, when pressure reaches their edge
-SETTLED = 1e-9  # change of forces and motions, relative to the largest
+SETTLED = 1e-10  # change of forces and motions, relative to the largest
 PLACE = 1e-8  # m: contacts that moved less keep their coupling, which varies over millimetres
 FLOOR = 1e-9  # of the largest force: laws are linearised there at the least
+ROUNDING = 1e-15  # of the coordinates: gaps are not known better
+FAINT = 1e-12  # of the largest force: less is rounding
+UNSTABLE = 1e-9  # of a motion's stiffness: less is rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,23 +109,27 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
     solution = None
     for step in range(1, NEWTON + 1):
         problem = _linearised(assembly, states, coupling, forces, motion)
-        solution = lcp.solve(problem, solution)
+        solution = _stepped(problem, _turning(assembly, states, forces, motion), solution)
         new = [f[:, 0] for f in solution.forces]
-        size = max(float(np.abs(np.concatenate(new)).max(initial=0.0)), 1e-300)
-        change = max(float(np.abs(a - b).max(initial=0.0)) for a, b in zip(new, forces, strict=True)) / size
-        arms = _arms(states)
-        moved = float(np.abs(arms @ (solution.motion - motion)).max(initial=0.0)) if assembly.follow else 0.0
-        reach = float(np.abs(arms @ solution.motion).max(initial=0.0))
-        forces, motion = new, solution.motion
-        if change < SETTLED and moved <= SETTLED * reach:
-            contact = _result(assembly, states, problem, solution, step)
+        size = max(float(f.max(initial=0.0)) for f in new)
+        change = max(float(np.abs(a - b).max(initial=0.0)) for a, b in zip(new, forces, strict=True))
+        arms, (length, force) = _arms(states), _rounding(states, problem)
+        moved = float(np.abs(arms @ solution.motion).max(initial=0.0)) if assembly.follow else 0.0
+        forces, motion = new, _origin(assembly, motion) + solution.motion
+        if (
+            change <= SETTLED * size + force
+            and moved <= SETTLED * float(np.abs(arms @ motion).max()) + length
+        ):
+            contact = _result(assembly, states, problem, solution, motion, step)
             return _resolved(assembly, contact, coupling) if resolve else contact
+        if assembly.follow:
+            solution = replace(solution, motion=np.zeros_like(motion))
         if moved > 0.0:
             states = [f.pair.at(motion, s.parameter) for f, s in zip(assembly.families, states, strict=True)]
         if moved > PLACE:
             coupling = _coupling(assembly, states)
     raise NotConverged(
-        f"contact: forces still change by {change:.1e} of the largest after {NEWTON} steps; "
+        f"contact: forces still change by {change / size:.1e} of the largest after {NEWTON} steps; "
         "reduce the clearance or the load, or start from a neighbouring position"
     )
 
@@ -132,8 +141,38 @@ def _guess(assembly: Assembly, start: Contact | None) -> tuple[list[Array], Arra
     return [np.full(len(f.kernel), size) for f in assembly.families], np.zeros(len(assembly.load))
 
 
+def _origin(assembly: Assembly, motion: Array) -> Array:
+    """Return the motion that the gaps are taken at and linear problems count from: small numbers round little."""
+    return motion if assembly.follow else np.zeros_like(motion)
+
+
 def _arms(states: Sequence[State]) -> Array:
     return np.concatenate([s.arms for s in states])
+
+
+def _rounding(states: Sequence[State], problem: lcp.Problem) -> tuple[float, float]:
+    """Return what rounding of the coordinates leaves uncertain in a gap (m) and in a force (N)."""
+    length = ROUNDING * max(float(np.abs(s.point).max(initial=0.0)) for s in states)
+    least = min(float(g.local.min(initial=np.inf)) for g in problem.groups)
+    return length, length / least
+
+
+def _turning(assembly: Assembly, states: Sequence[State], forces: Sequence[Array], motion: Array) -> Array:
+    """Return the stiffness (k, k) of all arms that turn with the motions under their forces."""
+    total = np.zeros((len(motion), len(motion)))
+    if assembly.follow:
+        for family, state, force in zip(assembly.families, states, forces, strict=True):
+            total += family.pair.turning(state, motion, force)
+    return total
+
+
+def _convex(stiffness: Array) -> Array:
+    """Return the positive part of a symmetric matrix: with it each step stays a convex problem."""
+    felt = np.flatnonzero(stiffness.any(axis=1))  # the other motions stay free, without rounding
+    values, vectors = np.linalg.eigh(stiffness[np.ix_(felt, felt)])
+    result = np.zeros_like(stiffness)
+    result[np.ix_(felt, felt)] = (vectors * np.maximum(values, 0.0)) @ vectors.T
+    return result
 
 
 def _law(family: Family, state: State) -> Law:
@@ -148,10 +187,32 @@ def _linearised(
     for family, state, force in zip(assembly.families, states, forces, strict=True):
         at = np.maximum(force, FLOOR * size)
         approach, slope = _law(family, state).approach(at)
-        moved = state.arms @ motion if assembly.follow else 0.0
-        gap = state.gap + moved + approach - slope * at
+        gap = state.gap + approach - slope * at
         groups.append(lcp.Group(slope[:, None, None], gap[:, None], state.arms[:, None, :]))
-    return lcp.Problem(tuple(groups), coupling, assembly.springs, assembly.load)
+    return lcp.Problem(tuple(groups), coupling, assembly.springs, _load(assembly, motion))
+
+
+def _stepped(problem: lcp.Problem, turning: Array, start: lcp.Solution | None) -> lcp.Solution:
+    """Solve a Newton step with arms that turn, or with what of that keeps the problem convex when it must be."""
+    if start is not None:
+        exact = replace(problem, springs=problem.springs + turning)
+        if _stable(lcp.tangent(exact, start), 1e-6):
+            with suppress(NotConverged):
+                return lcp.solve(exact, start, most=QUICK)
+    return lcp.solve(replace(problem, springs=problem.springs + _convex(turning)), start)
+
+
+def _stable(stiffness: Array, least: float) -> bool:
+    """Return whether a stiffness resists every motion that it has a diagonal entry for, by `least` of that entry."""
+    size = np.sqrt(np.maximum(np.diag(stiffness), 0.0))
+    scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0)
+    unitless = stiffness * np.outer(scale, scale) + np.diag((size == 0).astype(float))
+    return bool((np.diag(stiffness) >= 0).all() and np.linalg.eigvalsh(unitless).min() >= least)
+
+
+def _load(assembly: Assembly, motion: Array) -> Array:
+    """Return the loads less what the springs take at the origin of the linear problem."""
+    return np.asarray(assembly.load - assembly.springs @ _origin(assembly, motion))
 
 
 def _coupling(assembly: Assembly, states: Sequence[State]) -> Array:
@@ -189,46 +250,105 @@ def _through(body: ElasticBody, seats: Sequence[Seat | None], states: Sequence[S
     return body.compliance.between(Weights.joined(weights), points) / body.width
 
 
+def _without_faint(solution: lcp.Solution, rounding: float) -> lcp.Solution:
+    """Return a solution in which contacts whose force is rounding do not touch."""
+    largest = max(float(f.sum(axis=1).max(initial=0.0)) for f in solution.forces)
+    least = np.inf if largest <= rounding else FAINT * largest
+    touching = [f.sum(axis=1, keepdims=True) > least for f in solution.forces]
+    return replace(
+        solution,
+        forces=tuple(np.where(t, f, 0.0) for f, t in zip(solution.forces, touching, strict=True)),
+        active=tuple(a & t for a, t in zip(solution.active, touching, strict=True)),
+    )
+
+
 def _result(
-    assembly: Assembly, states: Sequence[State], problem: lcp.Problem, solution: lcp.Solution, iterations: int
+    assembly: Assembly,
+    states: Sequence[State],
+    problem: lcp.Problem,
+    solution: lcp.Solution,
+    motion: Array,
+    iterations: int,
 ) -> Contact:
-    touches = {}
+    touches, rounding = {}, _rounding(states, problem)[1]
+    solution = _without_faint(solution, rounding)
     for family, state, force in zip(assembly.families, states, solution.forces, strict=True):
         total = force.sum(axis=1)
         half = HertzLine(family.kernel, state.radius).half_width(total)
         peak = np.divide(2 * total, np.pi * half, out=np.zeros_like(total), where=half > 0)
         touches[family.name] = Touch(state, total, half, peak)
+    forces = [touches[f.name].force for f in assembly.families]
+    stiffness = _tangent(assembly, problem, solution, _turning(assembly, states, forces, motion))
+    size = max(rounding, *(float(f.max(initial=0.0)) for f in forces))
+    seen = np.sqrt(np.maximum(np.diag(stiffness), 0.0) * min(float(g.local.min()) for g in problem.groups))
+    scale = size * np.maximum(np.abs(_arms(states)).max(axis=0), seen)
     return Contact(
         touches,
-        solution.motion,
-        lcp.tangent(problem, solution),
-        solution.imbalance,
+        motion,
+        stiffness,
+        _imbalance(assembly, states, forces, motion, scale),
         solution.penetration,
         iterations,
         solution,
     )
 
 
+def _tangent(assembly: Assembly, problem: lcp.Problem, solution: lcp.Solution, turning: Array) -> Array:
+    """Return the tangent stiffness; where it says that a free motion stands on a crest, turning arms are left out."""
+    exact = lcp.tangent(replace(problem, springs=assembly.springs + turning), solution)
+    if _stable(exact, -UNSTABLE):
+        return exact
+    return lcp.tangent(replace(problem, springs=assembly.springs + _convex(turning)), solution)
+
+
+def _imbalance(
+    assembly: Assembly, states: Sequence[State], forces: Sequence[Array], motion: Array, scale: Array
+) -> float:
+    """Return the largest sum of all loads on a motion, relative to the largest force at the motion's arm.
+
+    `scale` (k,) is the force that rounding leaves and, for each motion, the arm that its stiffness suggests.
+    """
+    arms, force = _arms(states), np.concatenate(forces)
+    rest = np.abs(arms.T @ force + assembly.springs @ motion - assembly.load)
+    relative = float((rest / scale).max(initial=0.0))
+    return relative if relative > 1.0 or force.any() else 0.0
+
+
 def _resolved(assembly: Assembly, level0: Contact, coupling: Array) -> Contact:
-    """Give every Hertz contact its strips, wide enough for its force; the others keep their linearised laws."""
+    """Give every Hertz contact its strips, wide enough for its force; the others keep their linearised laws.
+
+    Forces and motion change by 1e-4 against level 0, so poses and laws are followed here too.
+    """
     states = [level0.touches[f.name].state for f in assembly.families]
     forces = [level0.touches[f.name].force for f in assembly.families]
+    motion = level0.motion
     for _ in range(WIDENINGS):
-        problem, offsets, start = _strips(assembly, states, coupling, forces, level0.motion)
+        problem, offsets, start = _strips(assembly, states, coupling, forces, motion)
         solution = lcp.solve(problem, start)
         spilt = [
             len(x) > 0 and bool((p[:, [0, -1]] > 0).any())
             for x, p in zip(offsets, solution.forces, strict=True)
         ]
-        if not any(spilt):
+        arms = _arms(states)
+        motion = _origin(assembly, motion) + solution.motion
+        moved = float(np.abs(arms @ solution.motion).max(initial=0.0)) if assembly.follow else 0.0
+        settled = (
+            moved <= SETTLED * float(np.abs(arms @ motion).max(initial=0.0)) + _rounding(states, problem)[0]
+        )
+        if settled and not any(spilt):
             break
-        forces = [np.maximum(1.5 * f, p.sum(axis=1)) for f, p in zip(forces, solution.forces, strict=True)]
+        new = [p.sum(axis=1) for p in solution.forces]
+        forces = [
+            np.maximum(1.5 * f, p) if wide else p for f, p, wide in zip(forces, new, spilt, strict=True)
+        ]
+        if not settled:
+            states = [f.pair.at(motion, s.parameter) for f, s in zip(assembly.families, states, strict=True)]
     else:
         raise NotConverged(
             f"contact: pressure still reaches the edge of its strips after {WIDENINGS} widenings; "
             "the surfaces conform, which strips on one contact do not cover"
         )
-    contact = _result(assembly, states, problem, solution, level0.iterations + 1)
+    contact = _result(assembly, states, problem, solution, motion, level0.iterations + 1)
     touches = {
         family.name: _strip_touch(contact.touches[family.name], x, p)
         for family, x, p in zip(assembly.families, offsets, solution.forces, strict=True)
@@ -252,13 +372,13 @@ def _strips(
         half = HertzLine(family.kernel, state.radius).half_width(np.maximum(force, least))
         offset = strip_centres() * (REACH * half)[:, None]
         gap = family.pair.gap_along(state, motion, offset)
-        gap = gap + (state.arms @ motion)[:, None] if assembly.follow else gap
         local = strip_compliance(family.kernel, 2 * REACH * half / STRIPS)
         groups.append(lcp.Group(local, gap, np.repeat(state.arms[:, None, :], STRIPS, axis=1)))
         offsets.append(offset)
         active.append((np.abs(offset) < half[:, None]) & (force > 0)[:, None])
-    problem = lcp.Problem(tuple(groups), coupling, assembly.springs, assembly.load)
-    return problem, offsets, lcp.Solution((), motion, tuple(active), 0, 0.0, 0.0)
+    problem = lcp.Problem(tuple(groups), coupling, assembly.springs, _load(assembly, motion))
+    start = np.zeros_like(motion) if assembly.follow else motion
+    return problem, offsets, lcp.Solution((), start, tuple(active), 0, 0.0, 0.0)
 
 
 def _strip_touch(level0: Touch, offset: Array, strips: Array) -> Touch:

@@ -89,7 +89,10 @@ def transmission_error(s: Stages) -> Quantity:
         parts={
             "peak_to_peak": over_turn(s, lambda x: float(np.ptp(x.twist[:-1])) * scale * 60, "arcsec"),
             "wind_up": over_turn(s, lambda x: float(x.twist[:-1].mean()) * scale, "arcmin"),
-        }
+        },
+        note=None
+        if (s.contact.fine.torsional_stiffness > 0).all()
+        else "the driven member is free within its play: its angle is one of many",
     )
 
 

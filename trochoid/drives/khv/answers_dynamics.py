@@ -90,7 +90,11 @@ def reactions(s: Stages) -> Quantity:
 
 
 def _size(model: str, member: str, bearing: int) -> Callable[[Reactions], Array]:
-    return lambda found: np.asarray(np.linalg.norm(getattr(found, model)[member][:, bearing], axis=-1))
+    def size(found: Reactions) -> Array:
+        forces = getattr(found, model) or found.rigid  # a coarser mesh may find the drive free
+        return np.asarray(np.linalg.norm(forces[member][:, bearing], axis=-1))
+
+    return size
 
 
 def vibration_velocity(s: Stages) -> Quantity:

@@ -187,10 +187,11 @@ def _bearing(
         member, cage, np.zeros((count, 2)), design.drive.bore_radius, rollers, bearing.roller_radius, seat
     )
     one = plane(design).kernel / bearing.roller_length
+    wider = 0.0 if body is None else _widening(design)
     if not motions.floating:  # rigid rollers on a rigid eccentric: the seat's own Hertz contact is left
-        return [Family(f"bearing{i}", pair, np.full(count, one), np.zeros(count))]
+        return [Family(f"bearing{i}", pair, np.full(count, one), np.full(count, wider))]
     law = PowerLaw(roller_constant(design), EXPONENT)
-    side = np.full(count, 0.0 if body is None else _seat_for_seat(design, law, one))
+    side = np.full(count, 0.0 if body is None else wider + _seat_for_seat(design, law, one))
     return [Family(f"bearing{i}", pair, np.full(count, 2 * one), side, law)]
 
 
@@ -200,6 +201,18 @@ def roller_constant(design: Design) -> float:
     """
     steel = Material(210e9, 0.3).plane(design.drive.plane).modulus
     return iso16281_constant(design.drive.eccentric_bearing.roller_length) * plane(design).modulus / steel
+
+
+def _widening(design: Design) -> float:
+    """Return the compliance in m/N that the bore lacks because a roller's load spreads over the whole face width.
+
+    The contact's logarithm counts with the roller's length, the body's with the face width; they meet at the
+    depth that the load reaches at 45° when it has become as wide as the disc.
+    """
+    length, width = design.drive.eccentric_bearing.roller_length, design.drive.face_width
+    if length >= width:
+        return 0.0
+    return float(plane(design).kernel * (1 / length - 1 / width) * np.log(0.5 * (width - length)))
 
 
 def _seat_for_seat(design: Design, law: PowerLaw, one: float) -> float:
@@ -220,10 +233,16 @@ def _seat_for_seat(design: Design, law: PowerLaw, one: float) -> float:
 
 
 def nominal_roller_load(design: Design) -> float:
-    """Return a typical load of a loaded roller in N: Stribeck's 4/Z of a bearing force √2·T/(e z_c) per disc."""
-    torque = max(design.flange_torque, 1e-3) / len(design.discs)
-    force = np.sqrt(2) * torque / (design.flank.eccentricity * design.flank.lobes)
-    return float(4 * force / design.drive.eccentric_bearing.rollers)
+    """Return a typical load of a loaded roller in N: Stribeck's 4/Z of a disc's bearing force.
+
+    That force is √2·T/(e z_c) and the inertia of the disc. Not less than what makes a contact as wide as
+    1/1000 of the roller, so that logarithms of it stay in proportion when nothing loads the drive.
+    """
+    bearing, flank = design.drive.eccentric_bearing, design.flank
+    force = np.sqrt(2) * design.flange_torque / (len(design.discs) * flank.eccentricity * flank.lobes)
+    force += flank.eccentricity * design.crank_speed**2 * design.eccentric_mass
+    least = (1e-3 * bearing.roller_radius) ** 2 / (4 * plane(design).kernel * bearing.roller_radius)
+    return float(max(4 * force / bearing.rollers, least * bearing.roller_length))
 
 
 def _round(design: Design, count: int, radius: float, width: float) -> tuple[Array, Array]:

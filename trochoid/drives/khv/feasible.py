@@ -27,7 +27,17 @@ def faults(design: Design) -> tuple[str, ...]:
     found += output_pin_faults(design.hole_radius, d.output_pins.roller_radius, d.eccentricity)
     found += stack_faults([disc.z for disc in design.discs], d.face_width)
     found += bearing_faults(d.bore_radius, d.eccentric_bearing.rollers, d.eccentric_bearing.roller_radius)
-    return tuple(dict.fromkeys(found + _shaft(design) + _ring(design)))
+    return tuple(dict.fromkeys(found + _rollers(design) + _shaft(design) + _ring(design)))
+
+
+def _rollers(design: Design) -> tuple[str, ...]:
+    length, width = design.drive.eccentric_bearing.roller_length, design.drive.face_width
+    if length <= width:
+        return ()
+    return (
+        f"eccentric_bearing.roller_length = {_mm(length)}: rollers touch the disc over its face width only; "
+        f"it must be at most face_width = {_mm(width)}",
+    )
 
 
 def _shaft(design: Design) -> tuple[str, ...]:

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from trochoid.drives.khv import headline
 from trochoid.drives.khv.plan import WHY
 from trochoid.drives.khv.stages import Stages
+from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Check, Outcome, Quantity, Stage
+
+if TYPE_CHECKING:
+    from trochoid.drives.khv.series import Series
 
 BALANCE = 1e-9
 
@@ -78,18 +82,18 @@ def disc_residual(stages: Stages, i: int) -> float:
     from trochoid.drives.khv.contact import centrifugal
 
     series, flank = stages.contact.fine, stages.design.flank
-    if series.bearing is None:  # the classical disc is held by its eccentric: torque balance only
-        return 0.0
-    inertia = centrifugal(stages.design, series.crank)[:, i]
     angle = series.crank + stages.design.discs[i].crank
     center = flank.eccentricity * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    row = series.names.index(f"disc{i}.x")
-    center = center + series.motion[:, row : row + 2]
-    force, moment, size = inertia.copy(), np.zeros(len(inertia)), np.zeros(len(inertia))
-    for touches in (series.ring, series.output, series.bearing):
+    center = center + _displacement(series, f"disc{i}")
+    kinds = [series.ring, series.output] + ([] if series.bearing is None else [series.bearing])
+    # the eccentric holds the classical disc with whatever force is needed: torque balance only
+    free = 0.0 if series.bearing is None else 1.0
+    force = free * centrifugal(stages.design, series.crank)[:, i]
+    moment, size = np.zeros(len(angle)), np.zeros(len(angle))
+    for touches in kinds:
         push = -touches.force[:, i, :, None] * touches.normal[:, i]
         arm = touches.point[:, i] - center[:, None]
-        force += push.sum(axis=1)
+        force += free * push.sum(axis=1)
         moment += (arm[..., 0] * push[..., 1] - arm[..., 1] * push[..., 0]).sum(axis=1)
         size = np.maximum(size, touches.force[:, i].max(axis=1, initial=0.0))
     size = np.where(size > 0, size, 1.0)
@@ -98,26 +102,32 @@ def disc_residual(stages: Stages, i: int) -> float:
     )
 
 
+def _displacement(series: Series, member: str, z: float = 0.0) -> Array:
+    """Return how far (n, 2) a member's centre at the axial place z has gone when contacts were last looked at.
+
+    The classical calculation looks at them in their nominal places.
+    """
+    from trochoid.drives.khv.contact import Layout
+
+    if series.rung == "springs":
+        return np.zeros((len(series.angle), 2))
+    rows = Layout(series.names, True, True).rows(member, z)[:2]
+    return np.asarray(series.motion @ rows.T)
+
+
 def torque_residual(stages: Stages) -> float:
-    """Return how far the output pins' torque about the axis is from the flange's, relative."""
+    """Return how far the output pins' torque about the axis is from the flange's, relative to the larger of it
+    and the largest pin force at the pins' circle.
+    """
     series, torque = stages.contact.fine, stages.design.flange_torque
-    if torque == 0.0:
-        return 0.0
     touches = series.output
-    hub = np.zeros((len(series.angle), 2))
-    if "output.x" in series.names:
-        row = series.names.index("output.x")
-        hub = series.motion[:, row : row + 2]
+    reach = float(touches.force.max(initial=0.0)) * stages.design.drive.output_pins.circle_radius
     total = np.zeros(len(series.angle))
     for i, disc in enumerate(stages.design.discs):
-        tilt = np.zeros_like(hub)
-        if "output.tilt_x" in series.names:
-            a, b = series.names.index("output.tilt_x"), series.names.index("output.tilt_y")
-            tilt = disc.z * np.stack([series.motion[:, b], -series.motion[:, a]], axis=-1)
-        arm = touches.point[:, i] - (hub + tilt)[:, None]
+        arm = touches.point[:, i] - _displacement(series, "output", disc.z)[:, None]
         push = touches.force[:, i, :, None] * touches.normal[:, i]
         total += (arm[..., 0] * push[..., 1] - arm[..., 1] * push[..., 0]).sum(axis=1)
-    return float(np.abs(total + torque).max() / torque)
+    return float(np.abs(total + torque).max() / (max(torque, reach) or 1.0))
 
 
 def warnings(stages: Stages) -> tuple[str, ...]:

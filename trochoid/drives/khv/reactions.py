@@ -76,7 +76,12 @@ def reactions(design: Design, series: Series, masses: Masses, damping: float) ->
         casing_rigid,
         "bearings are rigid in this scene: there is nothing to feed back",
     )
-    if "shaft.x" in series.names:
+    if "shaft.x" in series.names and not (series.torsional_stiffness > 0).all():
+        reason = (
+            "the drive is free within its play: no stiffness holds the members, and only the rigid reactions "
+            "have a meaning"
+        )
+    elif "shaft.x" in series.names:
         response = _response(design, series, masses, damping, turn)
         elastic = {m: rigid[m] + _change(design, layout, m, response) for m in MEMBERS}
         casing = total([casing_rigid, _inertia_wrench(design, series.names, response.inertia)])

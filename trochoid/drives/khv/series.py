@@ -79,8 +79,10 @@ class Series:
             if size[row] == 0.0:
                 continue
             scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0)
-            answer, *_ = np.linalg.lstsq(k * np.outer(scale, scale), unit * scale, rcond=1e-12)
-            result[i] = 1 / float(answer[row] * scale[row])
+            unitless, one = k * np.outer(scale, scale), unit * scale
+            answer, *_ = np.linalg.lstsq(unitless, one, rcond=1e-12)
+            if np.abs(unitless @ answer - one).max() <= 1e-6 * one[row]:
+                result[i] = 1 / float(answer[row] * scale[row])
         return result
 
 

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from trochoid.drives.khv.vibration import CasingVibration
     from trochoid.geometry.mesh import Mesh
 
-COARSEST = 6  # facets per lobe
-FINEST = 48
+COARSEST = 8  # facets per lobe: with 6 the order of convergence is not yet seen, and the estimate misleads
+FINEST = 64
 RESOLVED_BELOW = (
     1e-3  # tolerance under which pressure is resolved by strips; level 0 agrees with them to 1e-4
 )
