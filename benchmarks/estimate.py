@@ -15,7 +15,8 @@ from trochoid.drives.khv.series import Series
 from trochoid.drives.khv.stages import COARSEST
 from trochoid.kinematics.types import Array
 
-LEVELS = (8, 16, 32)  # coarse and fine give the estimate, the third the true error of the second
+# the first two are those that a run begins with; the third gives the true error of the second
+LEVELS = (COARSEST, 2 * COARSEST, 4 * COARSEST)
 ENOUGH, FACTOR = 0.95, 20.0
 
 

@@ -92,7 +92,10 @@ def _grow(body: Body, load: PointForce, radius: float) -> IntArray:
     near = np.flatnonzero(np.hypot(*(body.parts.centroids - load.point).T) < radius)
     corners = body.mesh.triangles[:, near]
     relative = body.mesh.points[corners] - load.point
-    angle = np.abs(np.angle((relative[..., 0] + 1j * relative[..., 1]) * turn))
+    z = (relative[..., 0] + 1j * relative[..., 1]) * turn
+    angle = np.abs(
+        np.angle(np.where(np.abs(z) < 1e-6 * load.facet, 1.0, z))
+    )  # a corner that is pressed has none
     allowed = np.zeros(len(body.neighbours), dtype=bool)
     allowed[near[np.all(angle < 0.85 * np.pi, axis=0) & ~body.held[corners].any(axis=0)]] = True
     allowed[load.element] = True

@@ -27,10 +27,11 @@ NEWTON = 40
 QUICK = 30  # pivots within which a step with turning arms must be found
 WIDENINGS = 12  # of the strips, when pressure reaches their edge
 SETTLED = 1e-10  # change of forces and motions, relative to the largest
-PLACE = 1e-8  # m: contacts that moved less keep their coupling, which varies over millimetres
+PLACE = 1e-7  # of the coordinates: contacts that moved less keep their coupling, which varies over facets
 FLOOR = 1e-9  # of the largest force: laws are linearised there at the least
 ROUNDING = 1e-15  # of the coordinates: gaps are not known better
 FAINT = 1e-12  # of the largest force: less is rounding
+FREE = 1e-12  # of the coordinates: how little what nothing presses on must move
 UNSTABLE = 1e-9  # of a motion's stiffness: less is rounding
 
 
@@ -103,10 +104,15 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
 
     Raises NotConverged.
     """
-    forces, motion = _guess(assembly, start)
-    states = [f.pair.at(motion if assembly.follow else np.zeros_like(motion)) for f in assembly.families]
+    motion = np.zeros(len(assembly.load)) if start is None else start.motion
+    states = [f.pair.at(_origin(assembly, motion)) for f in assembly.families]
+    forces = (
+        _guess(assembly, states)
+        if start is None
+        else [start.touches[f.name].force for f in assembly.families]
+    )
     coupling = _coupling(assembly, states)
-    solution = None
+    solution = None if start is None else _beginning(assembly, start)
     for step in range(1, NEWTON + 1):
         problem = _linearised(assembly, states, coupling, forces, motion)
         solution = _stepped(problem, _turning(assembly, states, forces, motion), solution)
@@ -114,11 +120,14 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
         size = max(float(f.max(initial=0.0)) for f in new)
         change = max(float(np.abs(a - b).max(initial=0.0)) for a, b in zip(new, forces, strict=True))
         arms, (length, force) = _arms(states), _rounding(states, problem)
-        moved = float(np.abs(arms @ solution.motion).max(initial=0.0)) if assembly.follow else 0.0
+        steps = np.abs(arms @ solution.motion) if assembly.follow else np.zeros(len(arms))
+        moved = float(steps.max(initial=0.0))
+        pressed = float(steps[np.concatenate(new) > 0].max(initial=0.0))
         forces, motion = new, _origin(assembly, motion) + solution.motion
         if (
             change <= SETTLED * size + force
-            and moved <= SETTLED * float(np.abs(arms @ motion).max()) + length
+            and pressed <= SETTLED * float(np.abs(arms @ motion).max()) + length
+            and moved <= FREE / ROUNDING * length
         ):
             contact = _result(assembly, states, problem, solution, motion, step)
             return _resolved(assembly, contact, coupling) if resolve else contact
@@ -126,7 +135,7 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
             solution = replace(solution, motion=np.zeros_like(motion))
         if moved > 0.0:
             states = [f.pair.at(motion, s.parameter) for f, s in zip(assembly.families, states, strict=True)]
-        if moved > PLACE:
+        if moved > PLACE / ROUNDING * length:
             coupling = _coupling(assembly, states)
     raise NotConverged(
         f"contact: forces still change by {change / size:.1e} of the largest after {NEWTON} steps; "
@@ -134,11 +143,17 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
     )
 
 
-def _guess(assembly: Assembly, start: Contact | None) -> tuple[list[Array], Array]:
-    if start is not None:
-        return [start.touches[f.name].force for f in assembly.families], start.motion
-    size = float(np.abs(assembly.load).max(initial=0.0))
-    return [np.full(len(f.kernel), size) for f in assembly.families], np.zeros(len(assembly.load))
+def _guess(assembly: Assembly, states: Sequence[State]) -> list[Array]:
+    """Return a first force for every contact: the load at its largest arm, shared by the contacts of a family."""
+    lever = np.abs(_arms(states)).max(axis=0)
+    size = float(np.divide(np.abs(assembly.load), lever, out=0 * lever, where=lever > 0).max(initial=0.0))
+    return [np.full(len(f.kernel), size / len(f.kernel)) for f in assembly.families]
+
+
+def _beginning(assembly: Assembly, start: Contact) -> lcp.Solution:
+    """Return what touched at a neighbouring position, to begin with."""
+    touching = tuple((start.touches[f.name].force > 0)[:, None] for f in assembly.families)
+    return lcp.Solution((), np.zeros(len(assembly.load)), touching, 0, 0.0, 0.0)
 
 
 def _origin(assembly: Assembly, motion: Array) -> Array:
@@ -168,10 +183,12 @@ def _turning(assembly: Assembly, states: Sequence[State], forces: Sequence[Array
 
 def _convex(stiffness: Array) -> Array:
     """Return the positive part of a symmetric matrix: with it each step stays a convex problem."""
-    felt = np.flatnonzero(stiffness.any(axis=1))  # the other motions stay free, without rounding
-    values, vectors = np.linalg.eigh(stiffness[np.ix_(felt, felt)])
+    felt = np.flatnonzero(np.diag(stiffness))  # the other motions stay free, without rounding
+    size = np.sqrt(np.abs(np.diag(stiffness)[felt]))  # metres and radians weigh alike
+    values, vectors = np.linalg.eigh(stiffness[np.ix_(felt, felt)] / np.outer(size, size))
+    shapes = size[:, None] * vectors
     result = np.zeros_like(stiffness)
-    result[np.ix_(felt, felt)] = (vectors * np.maximum(values, 0.0)) @ vectors.T
+    result[np.ix_(felt, felt)] = (shapes * np.maximum(values, 0.0)) @ shapes.T
     return result
 
 

@@ -182,6 +182,7 @@ def _plan_text(path: str, plan: Plan) -> str:
         _wrapped("quantities", plan.quantities),
         _wrapped("effects", plan.effects or ("none",)),
         f"model       {plan.model}",
+        f"geometry    {'feasible' if any(s.name == 'geometry' for s in needed) else 'not needed'}",
         "",
         *(f"{a:<{widths[0]}}  {b:>{widths[1]}}  {c:>{widths[2]}}  {why}".rstrip() for a, b, c, why in rows),
         "",

@@ -57,5 +57,8 @@ class Run:
 
 
 def plan(scene: Scene) -> Plan:
-    """Say what a run of the scene would do and cost; nothing is solved."""
+    """Say what a run of the scene would do and cost; nothing is solved.
+
+    Raises Infeasible with every reason when the drive cannot be built.
+    """
     return drive_of(scene.drive.type).plan(scene)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from trochoid.fem.body import Body, build_body
 from trochoid.fem.compliance import Compliance, place_stations, press, tabulate
 from trochoid.fem.material import Material, Plane
-from trochoid.fem.pair import FlankPair, Member
+from trochoid.fem.pair import FlankPair, HolePair, Member, Seat
 from trochoid.fem.position import Assembly, Contact, ElasticBody, Family, solve_position
 from trochoid.geometry.disc import disc_outline
 from trochoid.geometry.mesh import Mesh, mesh_outline
@@ -115,3 +116,51 @@ def solve_held(
 ) -> Contact:
     """Solve one position of the disc held at its bore."""
     return solve_position(held_position(held_disc(facets_per_lobe), crank_angle, torque), resolve)
+
+
+@lru_cache(maxsize=2)
+def drilled_disc(facets_per_lobe: int = 3) -> ElasticBody:
+    """Return a coarse free disc with bore and eight holes, pressed on all its loops."""
+    mesh, outline = small_mesh(facets_per_lobe)
+    return ElasticBody(press(build_body(mesh, STEEL), outline.loops), 0.010)
+
+
+def whole_drive(
+    crank_angle: float,
+    torque: float = 200.0,
+    turned: float = 0.0,
+    shift: tuple[float, float] = (0.0, 0.0),
+    play: float = 0.0,
+) -> Assembly:
+    """Return one free disc between ring pins, output rollers and the rollers of a rigid eccentric.
+
+    Motions: x, y, rotation of the disc and rotation of the flange, which the torque loads. `turned` and
+    `shift` move the whole drive in the plane; `play` is in the ring's grooves.
+    """
+    disc_moves, flange_moves = np.eye(3, 4), np.zeros((3, 4))
+    flange_moves[2, 3] = 1.0
+    c, s = np.cos(turned), np.sin(turned)
+    center = FLANK.eccentricity * on_circle(1.0, np.array([crank_angle + turned]))[0]
+    turn, still = turned - crank_angle / FLANK.lobes, np.zeros((3, 4))
+    # the disc's x and y turn with the drive, so that motions of equal number mean the same
+    disc_moves[:2, :2] = [[c, -s], [s, c]]
+    disc = Member(center + np.array(shift), turn, disc_moves)
+    ring, flange = Member(np.array(shift), turned, still), Member(np.array(shift), turn, flange_moves)
+    cage = Member(disc.center, turned + 0.3, still)
+    body = drilled_disc()
+    surfaces = body.compliance.surfaces
+    flank = replace(FlankPair.nominal(disc, ring, FLANK, crank_angle, surfaces["flank"]), play=play)
+    holes = on_circle(0.052, 2 * np.pi * np.arange(8) / 8)
+    seats = Seat.on(0, [surfaces[f"hole{j}"] for j in range(8)])
+    output = HolePair(disc, flange, holes, 0.009, holes, 0.009 - FLANK.eccentricity, seats)
+    rollers = on_circle(0.025 - 0.004, 2 * np.pi * np.arange(12) / 12)
+    bearing = HolePair(
+        disc, cage, np.zeros((12, 2)), 0.025, rollers, 0.004, Seat.on(0, [surfaces["bore"]] * 12)
+    )
+    one = STEEL.kernel / body.width
+    families = (
+        Family("ring", flank, np.full(20, 2 * one), np.full(20, one * (np.log(2 * 0.005) - 1))),
+        Family("output", output, np.full(8, 2 * one), np.full(8, one * (np.log(2 * 0.0065) - 1))),
+        Family("bearing", bearing, np.full(12, one), np.zeros(12)),
+    )
+    return Assembly(families, (body,), np.zeros((4, 4)), np.array([0.0, 0.0, 0.0, torque]))

@@ -12,7 +12,7 @@ from trochoid.fem.body import Body, build_body
 from trochoid.fem.compliance import Stations, Surface, place_stations, tabulate
 from trochoid.geometry.mesh import Mesh
 from trochoid.kinematics.errors import TrochoidError
-from trochoid.kinematics.types import Array
+from trochoid.kinematics.types import Array, BoolArray
 
 Free = tuple[Mesh, Stations, tuple[Surface, ...], Array]
 
@@ -58,15 +58,15 @@ def test_compliance_does_not_see_which_nodes_are_held(
     """Held at any two inner nodes, also next to the flank, a free body yields alike: the holds carry nothing."""
     mesh, stations, surfaces, truth = free
 
-    def anywhere(mesh: Mesh) -> Array:
+    def anywhere(mesh: Mesh) -> BoolArray:
         boundary = np.unique(np.concatenate([edge.ravel() for edge in mesh.edges.values()]))
         first, second = np.setdiff1d(np.unique(mesh.triangles[:3]), boundary)[list(pick)]
         across = np.abs(mesh.points[second] - mesh.points[first])
         fixed = np.zeros(2 * len(mesh.points), dtype=bool)
         fixed[[2 * first, 2 * first + 1, 2 * second + int(across[0] > across[1])]] = True
-        return fixed.astype(np.float64)
+        return fixed
 
-    monkeypatch.setattr("trochoid.fem.body._three_points", lambda mesh: anywhere(mesh).astype(bool))
+    monkeypatch.setattr("trochoid.fem.body._three_points", anywhere)
     other = tabulate(build_body(mesh, STEEL), stations, surfaces).stations
     assert np.abs(other - truth).max() < 1e-10 * STEEL.kernel
 

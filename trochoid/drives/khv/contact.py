@@ -235,14 +235,20 @@ def _seat_for_seat(design: Design, law: PowerLaw, one: float) -> float:
 def nominal_roller_load(design: Design) -> float:
     """Return a typical load of a loaded roller in N: Stribeck's 4/Z of a disc's bearing force.
 
-    That force is √2·T/(e z_c) and the inertia of the disc. Not less than what makes a contact as wide as
-    1/1000 of the roller, so that logarithms of it stay in proportion when nothing loads the drive.
+    That force is √2·T/(e z_c) and the inertia of the disc.
     """
     bearing, flank = design.drive.eccentric_bearing, design.flank
     force = np.sqrt(2) * design.flange_torque / (len(design.discs) * flank.eccentricity * flank.lobes)
     force += flank.eccentricity * design.crank_speed**2 * design.eccentric_mass
-    least = (1e-3 * bearing.roller_radius) ** 2 / (4 * plane(design).kernel * bearing.roller_radius)
-    return float(max(4 * force / bearing.rollers, least * bearing.roller_length))
+    least = _least_load(design, bearing.roller_radius) * bearing.roller_length
+    return float(max(4 * force / bearing.rollers, least))
+
+
+def _least_load(design: Design, radius: float) -> float:
+    """Return the line load in N/m at which a contact is 1/1000 as wide as its pin: logarithms that stand for typical
+    loads count from it when nothing loads the drive.
+    """
+    return 1e-6 * radius / (4 * plane(design).kernel)
 
 
 def _round(design: Design, count: int, radius: float, width: float) -> tuple[Array, Array]:
@@ -269,8 +275,9 @@ def contact_stiffness(design: Design) -> float:
     d = design.drive
     if d.contact_stiffness is not None:
         return d.contact_stiffness
-    torque = max(design.flange_torque, 1e-3) / len(design.discs)
-    force = 4 * torque / (design.flank.trochoid_ratio * d.pin_circle_radius * design.flank.lobes)
+    force = 4 * design.flange_torque / len(design.discs)
+    force /= design.flank.trochoid_ratio * d.pin_circle_radius * design.flank.lobes
+    force = max(force, _least_load(design, d.pin_radius) * d.face_width)
     kernel = np.array([2 * plane(design).kernel / d.face_width])
     approach, _ = HertzLine(kernel, np.array([d.pin_radius])).approach(np.array([force]))
     # the logarithm counts from a depth of one pin diameter in both bodies

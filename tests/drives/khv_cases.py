@@ -1,0 +1,175 @@
+"""Scenes of K-H-V drives for tests: the example with other values, and random drives that can be built."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from hypothesis import assume
+from hypothesis import strategies as st
+
+from trochoid.drives.khv.bodies import Level, build_level, meshes
+from trochoid.drives.khv.contact import assembly
+from trochoid.drives.khv.design import Design, design
+from trochoid.drives.khv.feasible import faults
+from trochoid.drives.khv.series import Series, solve_series
+from trochoid.fem.position import Contact
+from trochoid.kinematics.cycloid import Cycloid
+from trochoid.kinematics.types import Array
+from trochoid.scene import Scene, load
+from trochoid.scene.effects import EFFECTS
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "cycloid.toml"
+RV40 = (  # sources §3
+    "drive.pins=40",
+    "drive.lobes=39",
+    "drive.pin_circle_radius=64",
+    "drive.pin_radius=3",
+    "drive.eccentricity=1.3",
+    "drive.output_pins.count=12",
+    "drive.output_pins.circle_radius=40",
+    "operation.output_torque=206",
+    "drive.discs=1",
+)
+NO_PLAY = (
+    "drive.modification.equidistant=0",
+    "drive.output_pins.hole_clearance=0",
+    "drive.eccentric_bearing.clearance=0",
+)
+
+
+def listed(effects: Sequence[str]) -> str:
+    """Return the override that lists these effects."""
+    return "effects=[" + ", ".join(f'{{type="{name}"}}' for name in effects) + "]"
+
+
+def without(*effects: str) -> tuple[str, ...]:
+    """Return all effects but these."""
+    return tuple(name for name in EFFECTS if name not in effects)
+
+
+def scene(*overrides: str, effects: Sequence[str] = EFFECTS) -> Scene:
+    """Return the example with other values."""
+    return load(EXAMPLE, (listed(effects), 'ask.quantities=["ratio"]', *overrides))
+
+
+def drive(*overrides: str, effects: Sequence[str] = EFFECTS) -> Design:
+    """Return the example's drive with other values."""
+    return design(scene(*overrides, effects=effects))
+
+
+def level_of(made: Design, facets: int = 4) -> Level:
+    """Return the discs on a coarse mesh."""
+    return build_level(made, facets, meshes(made, facets))
+
+
+@lru_cache(maxsize=4)
+def example_level(facets: int = 4) -> Level:
+    """Return the discs of the example: loads, stiffness of bearings and effects do not change them."""
+    return level_of(drive(), facets)
+
+
+def turn(made: Design, level: Level | None, positions: int, rung: str = "level0") -> Series:
+    """Return the contacts over a turn; without a level of rigid discs on springs."""
+    return solve_series(made, "springs" if level is None else rung, () if level is None else level.elastic, positions)
+
+
+def imbalance(made: Design, level: Level | None, contact: Contact, angle: float) -> float:
+    """Return the largest sum of loads on any motion, from the definition of the arms alone.
+
+    Force times arm plus springs less loads, relative to the largest force at an arm of the pin circle
+    (rotations and tilts) or to the force itself (displacements).
+    """
+    rung = "springs" if level is None else "level0"
+    problem = assembly(made, rung, () if level is None else level.elastic, angle * made.mesh_speed)
+    from trochoid.drives.khv.contact import layout
+
+    names = layout(made, rung).names
+    sums = problem.springs @ contact.motion - problem.load
+    largest = 0.0
+    for touch in contact.touches.values():
+        sums = sums + touch.force @ touch.state.arms
+        largest = max(largest, float(touch.force.max(initial=0.0)))
+    reach = made.flank.pin_circle_radius
+    size = np.array([largest * (1.0 if name.endswith((".x", ".y")) else reach) for name in names])
+    return float(np.abs(sums / size).max())
+
+
+def scaled_forces(contact: Contact) -> Array:
+    """Return all contact forces in one row."""
+    return np.concatenate([touch.force for touch in contact.touches.values()])
+
+
+@st.composite
+def drives(draw: st.DrawFn, pins: int = 60, elastic: bool = False) -> Scene:
+    """Return a random scene whose drive can be built: any size, plays, number of discs, holes and rollers."""
+
+    def between(low: float, high: float) -> float:
+        return draw(st.floats(low, high, allow_nan=False))
+
+    z = draw(st.integers(6, pins))
+    big = 10 ** between(-2, 0)  # m
+    e = between(0.4, 0.85) * big / z
+    limit = min(Cycloid(z, z - 1, big, 1e-6 * big, e).undercut_radius, big * math.sin(math.pi / z))
+    r = between(0.3, 0.85) * limit
+    root = big - e - r
+    bore = between(0.3, 0.45) * root
+    holes = draw(st.integers(3, 12))
+    circle = 0.5 * (bore + root)
+    play = draw(st.sampled_from([0.0, 1e-5, 1e-4])) * big
+    hole = between(0.4, 0.75) * min(0.5 * (root - bore), circle * math.sin(math.pi / holes))
+    roller = hole - e - play
+    assume(roller > 0.01 * big)
+    count = draw(st.integers(4, 24))
+    pitch = math.sin(math.pi / count)
+    needle = between(0.5, 0.9) * min(0.3 * (bore - e), bore * pitch / (1 + pitch))
+    race = bore - 2 * needle
+    width = between(0.05, 0.3) * big
+    discs = draw(st.integers(1, 3))
+    steel = (width / 0.01) * (big / 0.08) ** 2  # torques that load the drive as much as the example's
+    effects = ["clearance"] + draw(st.lists(st.sampled_from(["pin_compliance", "inertia", "bearing_compliance"]), unique=True))
+    effects += ["elastic_contact"] if elastic else []
+    overrides = {
+        "drive.pins": z,
+        "drive.lobes": z - 1,
+        "drive.pin_circle_radius": big,
+        "drive.pin_radius": r,
+        "drive.eccentricity": e,
+        "drive.discs": discs,
+        "drive.face_width": width,
+        "drive.disc_gap": between(0.01, 0.2) * width,
+        "drive.bore_radius": bore,
+        "drive.output_pins.circle_radius": circle,
+        "drive.output_pins.roller_radius": roller,
+        "drive.output_pins.hole_clearance": play,
+        "drive.eccentric_bearing.roller_radius": needle,
+        "drive.eccentric_bearing.roller_length": between(0.5, 1.0) * width,
+        "drive.eccentric_bearing.clearance": draw(st.sampled_from([0.0, 1e-4])) * bore,
+        "drive.modification.equidistant": draw(st.sampled_from([0.0, 2e-5, 2e-4])) * big,
+        "drive.modification.radial": draw(st.sampled_from([0.0, -2e-5])) * big,
+        "drive.pin_clearance": draw(st.sampled_from([0.0, 1e-5])) * big,
+        "drive.ring.outer_radius": 1.3 * (big + r),
+        "drive.input_shaft.radius": between(0.5, 0.9) * (race - e),
+        "drive.output_flange.outer_radius": circle,
+    }
+    words = [f'{key}="{value!r} m"' if isinstance(value, float) else f"{key}={value}" for key, value in overrides.items()]
+    words += [
+        f"drive.output_pins.count={holes}",
+        f"drive.eccentric_bearing.rollers={count}",
+        f"drive.output_pins.phase={between(0, 360)}",
+        f"drive.modification.rotation={draw(st.sampled_from([0.0, 1e-3]))}",
+        f"drive.fixed={draw(st.sampled_from(['ring', 'output']))}",
+        f"drive.plane={draw(st.sampled_from(['strain', 'stress']))}",
+        f'drive.input_shaft.bearing_stiffness="{1e9 * 10 ** between(-1, 1) * width / 0.01} N/m"',
+        f'drive.output_flange.bearing_stiffness="{1e9 * 10 ** between(-1, 1) * width / 0.01} N/m"',
+        f'drive.input_shaft.bearing_positions=["{-2.5 * width} m", "{between(2, 4) * width} m"]',
+        f'drive.output_flange.bearing_positions=["{3 * width} m", "{between(4, 6) * width} m"]',
+        f"operation.output_torque={10 ** between(1, 3) * steel}",
+        f"operation.input_speed={10 ** between(2, 3.5) * min(1.0, 0.08 / big)}",
+    ]
+    found = scene(*words, effects=effects)
+    assume(not faults(design(found)))
+    return found
