@@ -15,7 +15,7 @@ from benchmarks.table import Row, Table
 
 SCENE = Path(__file__).parents[1] / "examples" / "cycloid.toml"
 REPEATS = 3
-FEW, MANY = 60, 80  # positions
+FEW, MANY = 60, 120  # positions
 
 
 @dataclass(frozen=True, slots=True)

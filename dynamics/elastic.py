@@ -20,7 +20,6 @@ from trochoid.dynamics.spectrum import harmonics, synthesize
 from trochoid.kinematics.errors import NotConverged, TrochoidError
 from trochoid.kinematics.types import Array, ComplexArray, frozen
 
-
 DENSE = 3000  # unknowns up to which a varying stiffness is solved directly when iterating fails
 
 

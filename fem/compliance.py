@@ -107,7 +107,8 @@ class Compliance:
 
     def _smooth(self, place: Weights, distance: Array) -> Array:
         gathered = self.table[place.columns[:, None, :, None], place.columns[None, :, None, :]]
-        result: Array = np.einsum("ijab,ia,jb->ij", gathered, place.values, place.values, optimize=True)
+        half = np.matmul(gathered, place.values[None, :, :, None])[..., 0]
+        result: Array = np.einsum("ija,ia->ij", half, place.values)
         same = np.equal.outer(place.surface, place.surface)
         result += np.where(same, place.kink, 0.0) * distance
         np.fill_diagonal(result, np.einsum("ia,ia->i", self.diagonal[place.columns], place.values))

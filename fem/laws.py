@@ -37,8 +37,8 @@ class LinearSpring:
 class HertzLine:
     """Hertz line contact seen from its own half-width a: h = A F (ln(2/a) + ½), with a² = 2 A F R.
 
-    `kernel` (c,) is A, the sum of 2/(πE') of both bodies over the face width, in 1/N·m; `radius` (c,) the
-    combined radius of
+    `kernel` (c,) is A, the sum of 2/(πE') of both bodies over the face width, in m/N; `radius` (c,) the
+    combined radius of curvature of both surfaces, in m.
     """
 
     kernel: Array

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -50,4 +51,4 @@ class Plane:
     @property
     def kernel(self) -> float:
         """Factor 2/(πE') of the logarithm in the half-plane's surface compliance, 1/Pa."""
-        return 2 / (3.141592653589793 * self.modulus)
+        return 2 / (math.pi * self.modulus)

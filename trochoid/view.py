@@ -19,7 +19,9 @@ Body: TypeAlias = Any  # pyvista's grids and plotters; its decorators hide their
 Plotter: TypeAlias = Any
 
 _VISIBLE = 0.02  # largest displacement as a share of a body's size, once exaggerated
-_SHOWN = 60.0  # percentile of the nodes at which the colours end: they crowd at the contacts, far above the rest
+_SHOWN = (
+    60.0  # percentile of the nodes at which the colours end: they crowd at the contacts, far above the rest
+)
 _STRESS = "von Mises stress (MPa)"
 _INK = "#1f2933"
 

@@ -12,7 +12,7 @@ from hypothesis import assume
 from hypothesis import strategies as st
 
 from trochoid.drives.khv.bodies import Level, build_level, meshes
-from trochoid.drives.khv.contact import assembly
+from trochoid.drives.khv.contact import centrifugal, layout
 from trochoid.drives.khv.design import Design, design
 from trochoid.drives.khv.feasible import faults
 from trochoid.drives.khv.series import Series, solve_series
@@ -38,6 +38,23 @@ NO_PLAY = (
     "drive.modification.equidistant=0",
     "drive.output_pins.hole_clearance=0",
     "drive.eccentric_bearing.clearance=0",
+)
+
+# one lobe to each hole, and a cage that goes on by whole rollers while the crank passes one pin
+EVERY_PIN_ALIKE = (
+    "drive.pins=9",
+    "drive.lobes=8",
+    "drive.eccentricity=5.5",
+    "drive.pin_radius=8",
+    "drive.output_pins.count=8",
+    "drive.output_pins.circle_radius=46",
+    "drive.output_pins.roller_radius=5",
+    "drive.eccentric_bearing.rollers=14",
+    "drive.eccentric_bearing.roller_radius=3.125",
+    "drive.input_shaft.radius=12",
+    "drive.discs=1",
+    "drive.ring.outer_radius=110",
+    *NO_PLAY,
 )
 
 
@@ -74,33 +91,71 @@ def example_level(facets: int = 4) -> Level:
 
 def turn(made: Design, level: Level | None, positions: int, rung: str = "level0") -> Series:
     """Return the contacts over a turn; without a level of rigid discs on springs."""
-    return solve_series(made, "springs" if level is None else rung, () if level is None else level.elastic, positions)
+    return solve_series(
+        made, "springs" if level is None else rung, () if level is None else level.elastic, positions
+    )
 
 
-def imbalance(made: Design, level: Level | None, contact: Contact, angle: float) -> float:
-    """Return the largest sum of loads on any motion, from the definition of the arms alone.
+def imbalance(made: Design, contact: Contact, angle: float, classical: bool = False) -> float:
+    """Return the largest unbalanced force or moment of any member, by vectors and points of the contacts alone.
 
-    Force times arm plus springs less loads, relative to the largest force at an arm of the pin circle
-    (rotations and tilts) or to the force itself (displacements).
+    Relative to the largest force, at the pin circle's radius for moments. The classical calculation leaves
+    the contacts where they are without load; its disc is held by its eccentric, so that only its moment counts.
     """
-    rung = "springs" if level is None else "level0"
-    problem = assembly(made, rung, () if level is None else level.elastic, angle * made.mesh_speed)
-    from trochoid.drives.khv.contact import layout
-
-    names = layout(made, rung).names
-    sums = problem.springs @ contact.motion - problem.load
-    largest = 0.0
-    for touch in contact.touches.values():
-        sums = sums + touch.force @ touch.state.arms
-        largest = max(largest, float(touch.force.max(initial=0.0)))
+    rows, motion = layout(made, "springs" if classical else "level0"), contact.motion
+    moved = 0.0 * motion if classical else motion
+    crank = angle * made.mesh_speed
+    forces, moments = {"shaft": np.zeros(2), "output": np.zeros(2)}, {"output": made.flange_torque}
+    tilts = {"shaft": np.zeros(2), "output": np.zeros(2)}
+    weights = centrifugal(made, np.array([crank]))[0]
+    for i, disc in enumerate(made.discs):
+        at = crank + disc.crank
+        center = made.flank.eccentricity * np.array([np.cos(at), np.sin(at)])
+        center = center + rows.rows(f"disc{i}")[:2] @ moved
+        forces[f"disc{i}"], moments[f"disc{i}"] = weights[i].copy(), 0.0
+        for kind, other in (("ring", None), ("output", "output"), ("bearing", "shaft")):
+            if f"{kind}{i}" not in contact.touches:
+                continue
+            touch = contact.touches[f"{kind}{i}"]
+            push = touch.force[:, None] * touch.state.normal  # by the disc on its partner
+            forces[f"disc{i}"] -= push.sum(axis=0)
+            moments[f"disc{i}"] -= _moment(touch.state.point - center, push)
+            if other is not None:
+                forces[other] += push.sum(axis=0)
+                tilts[other] += disc.z * push.sum(axis=0)
+            if other == "output":
+                hub = rows.rows("output", disc.z)[:2] @ moved
+                moments["output"] += _moment(touch.state.point - hub, push)
+    if rows.floating:
+        for member, table in (("shaft", made.drive.input_shaft), ("output", made.drive.output_flange)):
+            for z in table.bearing_positions:
+                held = table.bearing_stiffness * rows.rows(member, z)[:2] @ motion
+                forces[member] -= held
+                tilts[member] -= z * held
+    else:
+        del forces["shaft"], forces["output"]
+        tilts = {}
+    if not rows.lateral:
+        forces = {}
+    size = float(largest_force(contact)) or 1.0
     reach = made.flank.pin_circle_radius
-    size = np.array([largest * (1.0 if name.endswith((".x", ".y")) else reach) for name in names])
-    return float(np.abs(sums / size).max())
+    unmet = [np.abs(f).max() for f in forces.values()]
+    unmet += [np.abs(m).max() / reach for m in (*moments.values(), *tilts.values())]
+    return float(max(unmet)) / size
 
 
-def scaled_forces(contact: Contact) -> Array:
-    """Return all contact forces in one row."""
+def _moment(arm: Array, force: Array) -> float:
+    return float((arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]).sum())
+
+
+def all_forces(contact: Contact) -> Array:
+    """Return the forces of all contacts in one row."""
     return np.concatenate([touch.force for touch in contact.touches.values()])
+
+
+def largest_force(contact: Contact) -> float:
+    """Return the largest force of any contact."""
+    return float(all_forces(contact).max(initial=0.0))
 
 
 @st.composite
@@ -130,8 +185,8 @@ def drives(draw: st.DrawFn, pins: int = 60, elastic: bool = False) -> Scene:
     width = between(0.05, 0.3) * big
     discs = draw(st.integers(1, 3))
     steel = (width / 0.01) * (big / 0.08) ** 2  # torques that load the drive as much as the example's
-    effects = ["clearance"] + draw(st.lists(st.sampled_from(["pin_compliance", "inertia", "bearing_compliance"]), unique=True))
-    effects += ["elastic_contact"] if elastic else []
+    some = st.lists(st.sampled_from(["pin_compliance", "inertia", "bearing_compliance"]), unique=True)
+    effects = ["clearance", *draw(some), *(["elastic_contact"] if elastic else [])]
     overrides = {
         "drive.pins": z,
         "drive.lobes": z - 1,
@@ -155,7 +210,10 @@ def drives(draw: st.DrawFn, pins: int = 60, elastic: bool = False) -> Scene:
         "drive.input_shaft.radius": between(0.5, 0.9) * (race - e),
         "drive.output_flange.outer_radius": circle,
     }
-    words = [f'{key}="{value!r} m"' if isinstance(value, float) else f"{key}={value}" for key, value in overrides.items()]
+    words = [
+        f'{key}="{value!r} m"' if isinstance(value, float) else f"{key}={value}"
+        for key, value in overrides.items()
+    ]
     words += [
         f"drive.output_pins.count={holes}",
         f"drive.eccentric_bearing.rollers={count}",

@@ -5,21 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.fem.cases import solve_held
+from tests.fem.cases import POSITIONS, solve_held
 from trochoid.drives.khv.estimate import position_errors, scalar_error
 from trochoid.drives.khv.stages import COARSEST
 from trochoid.fem.position import Contact
 from trochoid.kinematics.types import Array
 
-POSITIONS = np.mod(
-    2.399963 * np.arange(60), 2 * np.pi
-)  # 60 different ones: a turn in 60 steps repeats every third
-
 
 @pytest.fixture(scope="module")
 def levels() -> list[list[Contact]]:
     """Return the disc of the convergence study on the first two levels of a run, and on one twice finer."""
-    return [[solve_held(COARSEST * 2**i, float(p)) for p in POSITIONS] for i in range(3)]
+    return [[solve_held(COARSEST * 2**i, p) for p in POSITIONS] for i in range(3)]
 
 
 def _numbers(contacts: list[Contact]) -> dict[str, Array]:

@@ -123,14 +123,18 @@ def test_torsional_stiffness_is_the_slope_of_the_torque(gone: tuple[str, ...]) -
         row = s.contact.fine.names.index("output.rotation")
         step = np.zeros_like(problem.load)
         step[row] = 0.4
-        low, high = (solve_position(replace(problem, load=problem.load + x * step)).motion[row] for x in (-1, 1))
+        low, high = (
+            solve_position(replace(problem, load=problem.load + x * step)).motion[row] for x in (-1, 1)
+        )
         assert s.contact.fine.torsional_stiffness[i] == pytest.approx(0.8 / (high - low), rel=1e-3)
 
 
 @pytest.mark.property
 def test_twist_grows_with_torque() -> None:
     """More torque, more twist, over seven decades."""
-    twists = [stages("ask.positions=1", f"operation.output_torque={t}").contact.fine.twist[0] for t in TORQUES]
+    twists = [
+        stages("ask.positions=1", f"operation.output_torque={t}").contact.fine.twist[0] for t in TORQUES
+    ]
     assert np.all(np.diff(twists) > 0)
 
 
@@ -146,7 +150,7 @@ def test_stiffness_is_symmetric_and_positive() -> None:
 
 @pytest.mark.property
 def test_equal_discs_share_equally() -> None:
-    """With rigid bearings both discs carry half the torque on average over a turn; with the flange overhung they do not."""
+    """With rigid bearings both discs carry half the load on average over a turn; with the flange overhung they do not."""
     rigid = stages(*_without("bearing_compliance")).contact.fine
     whole = rigid.ring.force[:-1].sum(axis=(0, 2))
     assert whole[0] == pytest.approx(whole[1], rel=1e-2)
@@ -188,6 +192,13 @@ def test_power_in_is_power_out() -> None:
 
 def _without(*effects: str) -> tuple[str, ...]:
     """Override that lists all effects of the example but these."""
-    every = ("elastic_contact", "pin_compliance", "clearance", "bearing_compliance", "inertia", "casing_on_mounts")
+    every = (
+        "elastic_contact",
+        "pin_compliance",
+        "clearance",
+        "bearing_compliance",
+        "inertia",
+        "casing_on_mounts",
+    )
     kept = ", ".join(f'{{type = "{e}"}}' for e in every if e not in effects)
     return (f"effects=[{kept}]",) + (('ask.quantities=["load_sharing"]',) if effects else ())

@@ -22,6 +22,8 @@ from trochoid.kinematics.types import Array
 STEEL = Material(210e9, 0.3, 7850.0).plane("strain")
 FLANK = Cycloid(20, 19, 0.080, 0.005, 0.0025)  # the disc of the example and of the convergence study
 RADIUS = 0.05  # of the circular disc, m
+# 60 different crank angles: over a turn in 60 equal steps, 20 pins see only three
+POSITIONS = tuple(float(p) for p in np.mod(2.399963 * np.arange(60), 2 * np.pi))
 
 
 def round_loop(facets: int, radius: float = RADIUS) -> Loop:
@@ -111,6 +113,7 @@ def held_position(
     return Assembly((family,), (disc,), np.zeros((1, 1)), np.array([-torque]))
 
 
+@lru_cache(maxsize=1000)
 def solve_held(
     facets_per_lobe: int, crank_angle: float, torque: float = 200.0, resolve: bool = False
 ) -> Contact:

@@ -57,9 +57,8 @@ def test_stress_at_the_centre() -> None:
     state = solve_state(body, _squeezed(0.0))
     corners = body.mesh.points[body.mesh.triangles[:3].T]
     edges = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], axis=-1)
-    place: Array = np.linalg.solve(edges, -corners[:, 0][..., None])[
-        ..., 0
-    ]  # of the origin, in each triangle's own axes
+    solved = np.linalg.solve(edges, -corners[:, 0][..., None])[..., 0]
+    place = np.asarray(solved, dtype=np.float64)  # of the origin, in each triangle's own axes
     element = np.flatnonzero((place > -1e-12).all(axis=1) & (place.sum(axis=1) < 1 + 1e-12))[:1]
     points, _, stress = sample(state, element, basis(place[element])[:, None])
     assert points == pytest.approx(np.zeros((1, 1, 2)), abs=1e-12)
