@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from functools import lru_cache
+from collections.abc import Hashable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -78,15 +77,19 @@ def drive(*overrides: str, effects: Sequence[str] = EFFECTS) -> Design:
     return design(scene(*overrides, effects=effects))
 
 
+_LEVELS: dict[Hashable, Level] = {}
+
+
 def level_of(made: Design, facets: int = 4) -> Level:
-    """Return the discs on a coarse mesh."""
-    return build_level(made, facets, meshes(made, facets))
-
-
-@lru_cache(maxsize=4)
-def example_level(facets: int = 4) -> Level:
-    """Return the discs of the example: loads, stiffness of bearings and effects do not change them."""
-    return level_of(drive(), facets)
+    """Return the discs on a coarse mesh; made once for all drives with the same discs."""
+    d = made.drive
+    holes = (d.output_pins.count, d.output_pins.circle_radius, made.hole_radius, made.hole_angles)
+    key = (made.flank, holes, d.bore_radius, d.face_width, d.plane, made.scene.materials[d.material], facets)
+    if key not in _LEVELS:
+        _LEVELS[key] = build_level(made, facets, meshes(made, facets))
+        while len(_LEVELS) > 8:
+            _LEVELS.pop(next(iter(_LEVELS)))
+    return _LEVELS[key]
 
 
 def turn(made: Design, level: Level | None, positions: int, rung: str = "level0") -> Series:

@@ -150,7 +150,7 @@ def test_stiffness_is_symmetric_and_positive() -> None:
 
 @pytest.mark.property
 def test_equal_discs_share_equally() -> None:
-    """With rigid bearings both discs carry half the load on average over a turn; with the flange overhung they do not."""
+    """With rigid bearings both discs carry half the load on average over a turn; an overhung flange changes that."""
     rigid = stages(*_without("bearing_compliance")).contact.fine
     whole = rigid.ring.force[:-1].sum(axis=(0, 2))
     assert whole[0] == pytest.approx(whole[1], rel=1e-2)

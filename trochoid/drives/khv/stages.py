@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from trochoid.clock import Clock
 from trochoid.drives.khv.design import Design, design
-from trochoid.kinematics.errors import Infeasible, NotConverged, SceneError
+from trochoid.kinematics.errors import Infeasible, NotConverged, SceneError, TrochoidError
 from trochoid.scene import Scene
 
 if TYPE_CHECKING:
@@ -104,6 +105,16 @@ class Stages:
 
             return meshes(made, facets)
 
+    def coarsest_facets(self) -> int:
+        """Return the facets per lobe of the coarsest mesh that thin walls allow; raises what the finest level says."""
+        facets = COARSEST
+        while 2 * facets < FINEST:
+            with suppress(TrochoidError):
+                self.meshes(facets)
+                return facets
+            facets *= 2
+        return facets
+
     def level(self, facets: int) -> Level:
         """Build the discs on one mesh level."""
         meshes = self.meshes(facets)
@@ -132,7 +143,7 @@ class Stages:
         from trochoid.drives.khv.estimate import worst_error
 
         given = self.scene.accuracy.facets_per_lobe
-        facets = COARSEST if given is None else max(3, given // 2)
+        facets = self.coarsest_facets() if given is None else max(3, given // 2)
         level = self.level(facets)
         coarse = self.series(level)
         while True:
