@@ -143,7 +143,9 @@ def imbalance(made: Design, contact: Contact, angle: float, classical: bool = Fa
     size = float(largest_force(contact)) or 1.0
     reach = made.flank.pin_circle_radius
     unmet = [np.abs(f).max() for f in forces.values()]
-    unmet += [np.abs(m).max() / reach for m in (*moments.values(), *tilts.values())]
+    unmet += [
+        np.abs(np.asarray(m, dtype=np.float64)).max() / reach for m in (*moments.values(), *tilts.values())
+    ]
     return float(max(unmet)) / size
 
 
