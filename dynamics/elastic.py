@@ -11,7 +11,7 @@ balance exactly.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from trochoid.dynamics.spectrum import harmonics, synthesize
 from trochoid.kinematics.errors import NotConverged, TrochoidError
 from trochoid.kinematics.types import Array, ComplexArray, frozen
 
+COUPLED = 60  # harmonics that the variation of the stiffness may couple: 1500 Hz at 1500 rpm
 DENSE = 3000  # unknowns up to which a varying stiffness is solved directly when iterating fails
 
 
@@ -75,7 +76,7 @@ def respond(
     order: Array = speed * np.arange(1.0, len(still) + 1.0)
     answer = FrequencyResponse(basis, order, damping_ratio)
     first = _series(answer.to((order[:, None] ** 2) * (still @ np.asarray(mass))) @ basis.shapes.T, len(q))
-    correction = first if len(stiffnesses) == 1 else _varying(answer, stiffnesses - mean, first)
+    correction = first if len(stiffnesses) == 1 else _coupled(answer, stiffnesses - mean, first)
     lines = harmonics(correction)
     y = lines[1:]
     springs = ((y @ np.asarray(mass) @ basis.shapes) * answer.spring_factor()) @ basis.shapes.T
@@ -133,6 +134,20 @@ def _checked(motion: Array, stiffness: Array, speed: float, damping_ratio: float
 def _series(amplitudes: ComplexArray, positions: int) -> Array:
     """Return the zero-mean record (positions, n) of harmonics 1…nh."""
     return synthesize(np.concatenate([np.zeros_like(amplitudes[:1]), amplitudes]), positions)
+
+
+def _coupled(answer: FrequencyResponse, change: Array, first: Array) -> Array:
+    """Return y (n_pos, n) with the varying stiffness; harmonics above COUPLED see the mean stiffness only."""
+    samples = 2 * COUPLED + 1
+    if len(first) <= samples:
+        return _varying(answer, change, first)
+
+    def lower(record: Array) -> Array:
+        return synthesize(harmonics(record)[: COUPLED + 1], samples)
+
+    low = lower(first)
+    added = _varying(replace(answer, order=answer.order[:COUPLED]), lower(change), low) - low
+    return np.asarray(first + synthesize(harmonics(added), len(first)))
 
 
 def _varying(answer: FrequencyResponse, change: Array, first: Array) -> Array:

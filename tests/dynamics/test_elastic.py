@@ -13,7 +13,7 @@ from scipy.linalg import sqrtm
 
 from trochoid.dynamics.elastic import Response, explain, respond
 from trochoid.dynamics.modes import natural_modes
-from trochoid.dynamics.spectrum import harmonics
+from trochoid.dynamics.spectrum import harmonics, synthesize
 from trochoid.dynamics.supports import Support, assemble, shaft_bearing, support_forces
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array
@@ -127,6 +127,18 @@ def test_varying_stiffness_against_time_integration(swing: float) -> None:
     scale = 1.0 / np.sqrt(np.diag(stiffness))
     norm = np.linalg.norm(stiffness * np.outer(scale, scale), ord=2)
     assert response.stiffness_variation == pytest.approx(swing * norm, rel=1e-9)
+
+
+@pytest.mark.independent
+def test_long_records_couple_low_harmonics_only() -> None:
+    """A motion of few harmonics sampled 4 times as often gives the same response, though fewer lines are coupled."""
+    mass, stiffness = _system(5)
+    _, samples = _motion(6)
+    many = synthesize(harmonics(samples), 240)
+    dense = np.arange(240) * 2.0 * np.pi / 240
+    short = respond(samples, mass, (1.0 + 0.3 * np.cos(2.0 * PHI))[:, None, None] * stiffness, SPEED, 0.05)
+    long = respond(many, mass, (1.0 + 0.3 * np.cos(2.0 * dense))[:, None, None] * stiffness, SPEED, 0.05)
+    assert long.correction[::4] == pytest.approx(short.correction, abs=1e-6 * np.abs(short.correction).max())
 
 
 @pytest.mark.exact
