@@ -175,8 +175,8 @@ def _varying(answer: FrequencyResponse, change: Array, first: Array) -> Array:
         y = np.linalg.solve(np.column_stack([moved(unit) for unit in np.eye(size)]), right)
     if np.abs(moved(y) - right).max() > 1e-6 * np.abs(y).max():
         raise NotConverged(
-            "the stiffness varies so strongly over a turn that no steady motion was found (parametric "
-            "resonance): raise operation.damping_ratio, change the speed, or ask for more positions"
+            "reactions: no steady elastic motion was found with the stiffness of every position; ask for fewer "
+            "positions, raise operation.damping_ratio, or change the speed"
         )
     return np.asarray(scale * y.reshape(first.shape))
 

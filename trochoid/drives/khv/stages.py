@@ -105,19 +105,21 @@ class Stages:
 
             return meshes(made, facets)
 
-    def coarsest_facets(self) -> int:
-        """Return the facets per lobe of the coarsest mesh that thin walls allow; raises what the finest level says."""
+    def coarsest_level(self) -> Level:
+        """Build the discs on the coarsest level whose mesh thin walls allow; raises what the finest mesh says."""
         facets = COARSEST
         while 2 * facets < FINEST:
+            made = None
             with suppress(TrochoidError):
-                self.meshes(facets)
-                return facets
+                made = self.meshes(facets)
+            if made is not None:
+                return self.level(facets, made)
             facets *= 2
-        return facets
+        return self.level(facets)
 
-    def level(self, facets: int) -> Level:
-        """Build the discs on one mesh level."""
-        meshes = self.meshes(facets)
+    def level(self, facets: int, made: tuple[Mesh, ...] | None = None) -> Level:
+        """Build the discs on one mesh level, of which the meshes may be there already."""
+        meshes = self.meshes(facets) if made is None else made
         with self.clock.stage("bodies"):
             from trochoid.drives.khv.bodies import build_level
 
@@ -143,8 +145,8 @@ class Stages:
         from trochoid.drives.khv.estimate import worst_error
 
         given = self.scene.accuracy.facets_per_lobe
-        facets = self.coarsest_facets() if given is None else max(3, given // 2)
-        level = self.level(facets)
+        level = self.coarsest_level() if given is None else self.level(max(3, given // 2))
+        facets = level.facets_per_lobe
         coarse = self.series(level)
         while True:
             finer = self.level(given or 2 * facets)
