@@ -105,7 +105,7 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
     Raises NotConverged.
     """
     motion = np.zeros(len(assembly.load)) if start is None else start.motion
-    states = [f.pair.at(_origin(assembly, motion)) for f in assembly.families]
+    states = [f.pair.at(motion if assembly.follow else 0 * motion) for f in assembly.families]
     forces = (
         _guess(assembly, states)
         if start is None
@@ -123,7 +123,7 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
         steps = np.abs(arms @ solution.motion) if assembly.follow else np.zeros(len(arms))
         moved = float(steps.max(initial=0.0))
         pressed = float(steps[np.concatenate(new) > 0].max(initial=0.0))
-        forces, motion = new, _origin(assembly, motion) + solution.motion
+        forces, motion = new, motion + solution.motion
         if (
             change <= SETTLED * size + force
             and pressed <= SETTLED * float(np.abs(arms @ motion).max()) + length
@@ -131,8 +131,7 @@ def solve_position(assembly: Assembly, resolve: bool = False, start: Contact | N
         ):
             contact = _result(assembly, states, problem, solution, motion, step)
             return _resolved(assembly, contact, coupling) if resolve else contact
-        if assembly.follow:
-            solution = replace(solution, motion=np.zeros_like(motion))
+        solution = replace(solution, motion=np.zeros_like(motion))
         if moved > 0.0:
             states = [f.pair.at(motion, s.parameter) for f, s in zip(assembly.families, states, strict=True)]
         if moved > PLACE / ROUNDING * length:
@@ -154,11 +153,6 @@ def _beginning(assembly: Assembly, start: Contact) -> lcp.Solution:
     """Return what touched at a neighbouring position, to begin with."""
     touching = tuple((start.touches[f.name].force > 0)[:, None] for f in assembly.families)
     return lcp.Solution((), np.zeros(len(assembly.load)), touching, 0, 0.0, 0.0)
-
-
-def _origin(assembly: Assembly, motion: Array) -> Array:
-    """Return the motion that the gaps are taken at and linear problems count from: small numbers round little."""
-    return motion if assembly.follow else np.zeros_like(motion)
 
 
 def _arms(states: Sequence[State]) -> Array:
@@ -204,7 +198,7 @@ def _linearised(
     for family, state, force in zip(assembly.families, states, forces, strict=True):
         at = np.maximum(force, FLOOR * size)
         approach, slope = _law(family, state).approach(at)
-        gap = state.gap + approach - slope * at
+        gap = _gap(assembly, state, motion) + approach - slope * at
         groups.append(lcp.Group(slope[:, None, None], gap[:, None], state.arms[:, None, :]))
     return lcp.Problem(tuple(groups), coupling, assembly.springs, _load(assembly, motion))
 
@@ -227,9 +221,14 @@ def _stable(stiffness: Array, least: float) -> bool:
     return bool((np.diag(stiffness) >= 0).all() and np.linalg.eigvalsh(unitless).min() >= least)
 
 
+def _gap(assembly: Assembly, state: State, motion: Array) -> Array:
+    """Return the gaps after a motion; linear problems count from there, so that rounding stays small."""
+    return state.gap if assembly.follow else np.asarray(state.gap - state.arms @ motion)
+
+
 def _load(assembly: Assembly, motion: Array) -> Array:
-    """Return the loads less what the springs take at the origin of the linear problem."""
-    return np.asarray(assembly.load - assembly.springs @ _origin(assembly, motion))
+    """Return the loads less what the springs take after a motion."""
+    return np.asarray(assembly.load - assembly.springs @ motion)
 
 
 def _coupling(assembly: Assembly, states: Sequence[State]) -> Array:
@@ -347,7 +346,7 @@ def _resolved(assembly: Assembly, level0: Contact, coupling: Array) -> Contact:
             for x, p in zip(offsets, solution.forces, strict=True)
         ]
         arms = _arms(states)
-        motion = _origin(assembly, motion) + solution.motion
+        motion = motion + solution.motion
         moved = float(np.abs(arms @ solution.motion).max(initial=0.0)) if assembly.follow else 0.0
         settled = (
             moved <= SETTLED * float(np.abs(arms @ motion).max(initial=0.0)) + _rounding(states, problem)[0]
@@ -388,14 +387,16 @@ def _strips(
         least = 1e-6 * float(force.max(initial=0.0)) or 1e-9
         half = HertzLine(family.kernel, state.radius).half_width(np.maximum(force, least))
         offset = strip_centres() * (REACH * half)[:, None]
-        gap = family.pair.gap_along(state, motion, offset)
+        gap = (
+            family.pair.gap_along(state, motion, offset)
+            + (_gap(assembly, state, motion) - state.gap)[:, None]
+        )
         local = strip_compliance(family.kernel, 2 * REACH * half / STRIPS)
         groups.append(lcp.Group(local, gap, np.repeat(state.arms[:, None, :], STRIPS, axis=1)))
         offsets.append(offset)
         active.append((np.abs(offset) < half[:, None]) & (force > 0)[:, None])
     problem = lcp.Problem(tuple(groups), coupling, assembly.springs, _load(assembly, motion))
-    start = np.zeros_like(motion) if assembly.follow else motion
-    return problem, offsets, lcp.Solution((), start, tuple(active), 0, 0.0, 0.0)
+    return problem, offsets, lcp.Solution((), np.zeros_like(motion), tuple(active), 0, 0.0, 0.0)
 
 
 def _strip_touch(level0: Touch, offset: Array, strips: Array) -> Touch:

@@ -45,12 +45,13 @@ def check_cycloid(cycloid: Cycloid) -> None:
 
 def cycloid_faults(cycloid: Cycloid) -> tuple[str, ...]:
     """Reasons why a cycloid pair cannot be made, one sentence each; empty when it can."""
-    faults = _fail_if_not_a_pair(cycloid)
-    if not faults:
-        faults = _fail_if_looped(cycloid)
-    if not faults:
-        faults = _fail_if_undercut(cycloid) + _fail_if_pins_overlap(cycloid)
-    return faults
+    shape = _fail_if_not_a_pair(cycloid) or _fail_if_looped(cycloid)
+    return shape or _fail_if_undercut(cycloid) + _fail_if_pins_overlap(cycloid)
+
+
+def flank_faults(cycloid: Cycloid) -> tuple[str, ...]:
+    """Reasons why a flank cannot be ground, whatever stands beside it; empty when it can."""
+    return _fail_if_not_a_pair(cycloid) or _fail_if_looped(cycloid) or _fail_if_undercut(cycloid)
 
 
 def _fail_if_not_a_pair(c: Cycloid) -> tuple[str, ...]:

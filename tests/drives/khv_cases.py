@@ -17,6 +17,7 @@ from trochoid.drives.khv.feasible import faults
 from trochoid.drives.khv.series import Series, solve_series
 from trochoid.fem.position import Contact
 from trochoid.kinematics.cycloid import Cycloid
+from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array
 from trochoid.scene import Scene, load
 from trochoid.scene.effects import EFFECTS
@@ -81,12 +82,17 @@ _LEVELS: dict[Hashable, Level] = {}
 
 
 def level_of(made: Design, facets: int = 4) -> Level:
-    """Return the discs on a coarse mesh; made once for all drives with the same discs."""
+    """Return the discs on a coarse mesh, made once for all drives with the same discs; thin walls get a finer one."""
     d = made.drive
     holes = (d.output_pins.count, d.output_pins.circle_radius, made.hole_radius, made.hole_angles)
     key = (made.flank, holes, d.bore_radius, d.face_width, d.plane, made.scene.materials[d.material], facets)
     if key not in _LEVELS:
-        _LEVELS[key] = build_level(made, facets, meshes(made, facets))
+        try:
+            _LEVELS[key] = build_level(made, facets, meshes(made, facets))
+        except TrochoidError:
+            if facets >= 32:
+                raise
+            return level_of(made, 2 * facets)
         while len(_LEVELS) > 8:
             _LEVELS.pop(next(iter(_LEVELS)))
     return _LEVELS[key]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from trochoid.drives.khv.design import Design
 from trochoid.geometry.check import bearing_faults, disc_faults, output_pin_faults, stack_faults
-from trochoid.kinematics.meshing import cycloid_faults
+from trochoid.kinematics.meshing import cycloid_faults, flank_faults
 
 
 def faults(design: Design) -> tuple[str, ...]:
@@ -13,7 +13,7 @@ def faults(design: Design) -> tuple[str, ...]:
     if found:  # without a profile nothing else has a meaning
         return found
     ground = design.flank.modified(design.modification)
-    found = tuple(f"modified flank: {fault}" for fault in cycloid_faults(ground))
+    found = tuple(f"modified flank: {fault}" for fault in flank_faults(ground))
     d = design.drive
     for angle in design.hole_angles:
         found += disc_faults(
