@@ -28,7 +28,8 @@ class Body:
     """A factored plane body of unit thickness.
 
     `neighbours` (m, 3) element across each side, −1 on the boundary; `held` (n,) nodes of the supports, which D
-    must stay off; `solve` takes and gives (2n, k); `relief` is None for a held body.
+    must stay off; `solve` takes and gives (2n, k); `relief` is None for a held body. `fixed` (2n,) are the degrees
+    of freedom that `solve` leaves at zero, `solver` what factored it (None: the fastest).
     """
 
     mesh: Mesh
@@ -38,6 +39,8 @@ class Body:
     held: BoolArray
     solve: Solve
     relief: Relief | None
+    fixed: BoolArray
+    solver: str | None = None
 
     @property
     def size(self) -> int:
@@ -83,7 +86,7 @@ def build_body(mesh: Mesh, plane: Plane, supports: tuple[str, ...] = (), solver:
     fixed = np.repeat(held, 2) if supports else _three_points(mesh)
     solve = _reduced(parts, fixed, solver)
     relief = None if supports else _relief(mesh, parts)
-    return Body(mesh, plane, parts, _neighbours(mesh), held, solve, relief)
+    return Body(mesh, plane, parts, _neighbours(mesh), held, solve, relief, fixed, solver)
 
 
 def _three_points(mesh: Mesh) -> BoolArray:

@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from trochoid.fem.problem import Unit
 from trochoid.kinematics.types import Array, frozen
 
 STRIPS = 27  # per contact, an odd number so that one sits at the middle
@@ -26,6 +27,15 @@ def _unit(count: int) -> Array:
     d = np.abs(np.subtract.outer(np.arange(count), np.arange(count))).astype(float)
     outer, inner = d + 0.5, d - 0.5
     return frozen(1.0 - outer * np.log(outer) + inner * np.log(np.abs(inner)))
+
+
+@lru_cache(maxsize=8)
+def strip_unit(count: int = STRIPS) -> Unit:
+    """Return the logarithm's compliance (m, m) of strips that cover a unit length together.
+
+    Strips that cover a length b add −ln(b) to every entry, which acts on their total force alone.
+    """
+    return Unit.of(_unit(count) + np.log(count))
 
 
 def strip_compliance(kernel: Array, width: Array, count: int = STRIPS) -> Array:

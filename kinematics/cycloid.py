@@ -199,20 +199,26 @@ def _from_flank(ground: Cycloid, centers: Array, t0: npt.ArrayLike) -> tuple[Arr
     path needs two exponentials a step. What is farther away than its curvature goes to the general search.
     """
     z = centers[..., 0] + 1j * centers[..., 1]
-    t = np.array(np.broadcast_to(np.asarray(t0, dtype=np.float64), z.shape))
+    start = np.array(np.broadcast_to(np.asarray(t0, dtype=np.float64), z.shape))
+    t, near = start, np.ones(z.shape, dtype=bool)
     R, e, pins = ground.pin_circle_radius, ground.eccentricity, ground.pins
+    settled = False
     for _ in range(12):
         a, b = R * np.exp(1j * t), e * np.exp(1j * pins * t)
         offset, slope = z - (a - b), 1j * (a - pins * b)
         bend = np.abs(slope) ** 2 + (offset * (a - pins**2 * b).conj()).real
-        step = (offset * slope.conj()).real / bend
-        if not np.all(bend > 0.5 * np.abs(slope) ** 2):
-            break
+        near &= bend > 0.5 * np.abs(slope) ** 2
+        step = np.where(near, (offset * slope.conj()).real / np.where(near, bend, 1.0), 0.0)
         t = t + step
-        if np.abs(step).max(initial=0.0) < 1e-10:  # what is left is its square
-            foot = z - (R * np.exp(1j * t) - e * np.exp(1j * pins * t))
-            return t, (foot * ground._normal(t).conj()).real + ground.pin_radius
-    return foot_point(ground, centers, t0)
+        settled = bool(np.abs(step).max(initial=0.0) < 1e-10)  # what is left is its square
+        if settled:
+            break
+    near &= settled
+    foot = z - (R * np.exp(1j * t) - e * np.exp(1j * pins * t))
+    distance = (foot * ground._normal(t).conj()).real + ground.pin_radius
+    if not near.all():
+        t[~near], distance[~near] = foot_point(ground, centers[~near], start[~near])
+    return t, distance
 
 
 def gap_first_order(cycloid: Cycloid, modification: Modification, t: npt.ArrayLike) -> Array:

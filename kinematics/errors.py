@@ -16,4 +16,9 @@ class Infeasible(TrochoidError):
 
 
 class NotConverged(TrochoidError):
-    """A solver did not converge; the message says where and what to try."""
+    """A solver did not converge; the message says where and what to try. `row`: which of many side by side."""
+
+    def __init__(self, message: str, row: int | None = None) -> None:
+        """Keep the number beside the message."""
+        super().__init__(message)
+        self.row = row

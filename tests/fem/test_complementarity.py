@@ -30,7 +30,7 @@ class Dense:
         total = np.zeros((len(problem.coupling), size))  # strips → totals of the contacts
         compliance, at, contact = np.zeros((size, size)), 0, 0
         for group in problem.groups:
-            for local in group.local:
+            for local in _blocks(group):
                 m = len(local)
                 compliance[at : at + m, at : at + m] = local
                 total[contact, at : at + m] = 1.0
@@ -42,6 +42,11 @@ class Dense:
 
     def opening(self, solution: Solution) -> Array:
         return self.compliance @ _forces(solution) + self.gap - self.arms @ solution.motion
+
+
+def _blocks(group: Group) -> Array:
+    assert isinstance(group.local, np.ndarray)
+    return group.local
 
 
 def _forces(solution: Solution) -> Array:
@@ -179,7 +184,7 @@ def test_order_of_contacts_does_not_matter(seed: int, random: object) -> None:
     starts = np.cumsum([0] + [len(o) for o in orders])
     order = np.concatenate([s + o for s, o in zip(starts, orders, strict=False)])
     shuffled = Problem(
-        tuple(Group(g.local[o], g.gap[o], g.arms[o]) for g, o in zip(problem.groups, orders, strict=True)),
+        tuple(Group(_blocks(g)[o], g.gap[o], g.arms[o]) for g, o in zip(problem.groups, orders, strict=True)),
         problem.coupling[np.ix_(order, order)],
         problem.springs,
         problem.load,
@@ -311,18 +316,13 @@ def test_strip_that_can_never_touch() -> None:
     """An infinite gap is a strip off the edge: the rest solves as if it were not there."""
     problem = _random(3)
     whole = problem.groups[1]
+    local = np.pad(_blocks(whole), ((0, 0), (0, 1), (0, 1)))
+    local[:, -1, -1] = 1.0
     more = Group(
-        np.concatenate(
-            [
-                np.concatenate([whole.local, 0 * whole.local[:, :, :1]], axis=2),
-                0 * np.ones((len(whole.gap), 1, whole.gap.shape[1] + 1)),
-            ],
-            axis=1,
-        ),
+        local,
         np.concatenate([whole.gap, np.full((len(whole.gap), 1), np.inf)], axis=1),
         np.concatenate([whole.arms, np.ones((len(whole.gap), 1, 3))], axis=1),
     )
-    more.local[:, -1, -1] = 1.0
     plain, other = solve(problem), solve(replace(problem, groups=(problem.groups[0], more)))
     assert other.forces[1][:, :-1] == pytest.approx(plain.forces[1], abs=1e-11)
     assert not other.forces[1][:, -1].any()

@@ -63,13 +63,17 @@ def plane(design: Design) -> Plane:
     return material(design).plane(design.drive.plane)
 
 
-def assembly(design: Design, rung: str, bodies: tuple[ElasticBody, ...], crank: float) -> Assembly:
-    """Return the contact problem at a crank angle (rad) relative to the ring; `bodies` is empty for rigid discs."""
+def assembly(design: Design, rung: str, bodies: tuple[ElasticBody, ...], crank: Array | float) -> Assembly:
+    """Return the contact problem at crank angles (n,) in rad relative to the ring, or at a single one.
+
+    `bodies` is empty for rigid discs.
+    """
+    crank = np.asarray(crank, dtype=np.float64)
     motions = layout(design, rung)
     families: list[Family] = []
     for i, disc in enumerate(design.discs):
         angle = crank + disc.crank
-        center = design.flank.eccentricity * np.array([np.cos(angle), np.sin(angle)])
+        center = design.flank.eccentricity * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         turn = -angle / design.flank.lobes + disc.lead
         member = Member(center, turn, motions.rows(f"disc{i}"))
         body = bodies[disc.body] if bodies else None
@@ -97,15 +101,17 @@ def springs(design: Design, motions: Layout) -> Array:
     return total
 
 
-def loads(design: Design, motions: Layout, crank: float) -> Array:
-    """Return the loads on the motions: the load torque, and the centrifugal force of each disc when inertia
+def loads(design: Design, motions: Layout, crank: Array | float) -> Array:
+    """Return the loads (n, k) on the motions: the load torque, and the centrifugal force of each disc when inertia
     is in the scene.
     """
-    load = np.zeros(len(motions.names))
-    load[motions.names.index("output.rotation")] = design.flange_torque
+    crank = np.asarray(crank, dtype=np.float64)
+    load = np.zeros((*crank.shape, len(motions.names)))
+    load[..., motions.names.index("output.rotation")] = design.flange_torque
     if motions.lateral:
-        for i, force in enumerate(centrifugal(design, np.array([crank]))[0]):
-            load += motions.rows(f"disc{i}")[:2].T @ force
+        forces = centrifugal(design, crank)
+        for i in range(len(design.discs)):
+            load += forces[..., i, :] @ motions.rows(f"disc{i}")[:2]
     return load
 
 
@@ -113,7 +119,7 @@ def centrifugal(design: Design, crank: Array) -> Array:
     """Return the inertia forces (n, discs, 2) of the discs at crank angles (n,); zero when the scene leaves
     inertia out.
     """
-    angle = crank[:, None] + np.array([d.crank for d in design.discs])
+    angle = crank[..., None] + np.array([d.crank for d in design.discs])
     size = design.flank.eccentricity * design.crank_speed**2 * design.eccentric_mass
     return size * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
@@ -125,12 +131,12 @@ def _ring(
     i: int,
     member: Member,
     body: ElasticBody | None,
-    angle: float,
+    angle: Array,
 ) -> list[Family]:
     flank, count = design.flank, design.flank.pins
     pins = circle(flank.pin_circle_radius, count)
     ring = Member(np.zeros(2), 0.0, np.zeros((3, len(motions.names))))
-    start = flank.contact_parameter(np.arange(count), angle) - disc.lead
+    start = flank.contact_parameter(np.arange(count), angle[..., None]) - disc.lead
     seat = _seat(body, i, ["flank"] * count)
     pair = FlankPair(
         member,
@@ -155,7 +161,7 @@ def _output(
     i: int,
     member: Member,
     body: ElasticBody | None,
-    crank: float,
+    crank: Array,
 ) -> list[Family]:
     pins = design.drive.output_pins
     start = design.drive.output_pins.phase
@@ -176,7 +182,7 @@ def _bearing(
     i: int,
     member: Member,
     body: ElasticBody | None,
-    crank: float,
+    crank: Array,
 ) -> list[Family]:
     bearing = design.drive.eccentric_bearing
     count = bearing.rollers

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from trochoid.scene.drive_khv import KhvDrive
 if TYPE_CHECKING:
     from trochoid.geometry.mass import Solid
     from trochoid.geometry.outline import Outline
+
+
+Angle = TypeVar("Angle", float, Array)
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +130,7 @@ class Design:
         """Radius of the eccentric's raceway, m."""
         return self.pitch_radius - self.drive.eccentric_bearing.roller_radius
 
-    def cage_angle(self, crank: float) -> float:
+    def cage_angle(self, crank: Angle) -> Angle:
         """Angle of the eccentric bearing's cage at a crank angle relative to the ring: its rollers roll on
         both raceways.
         """

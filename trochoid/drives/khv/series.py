@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from trochoid.drives.khv.contact import assembly, layout
 from trochoid.drives.khv.design import Design
-from trochoid.fem.position import Contact, ElasticBody, solve_position
+from trochoid.fem.position import Contact, ElasticBody, Touch, solve_position, solve_positions
+from trochoid.fem.rows import joined
 from trochoid.kinematics.errors import NotConverged
-from trochoid.kinematics.types import Array, frozen
+from trochoid.kinematics.types import Array, IntArray, frozen
 
 FAMILIES = ("ring", "output", "bearing")
+CHUNK = 64  # positions side by side: enough for numpy, few enough for the cache and for progress to be seen
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,22 +95,32 @@ def solve_series(
     positions: int,
     progress: Callable[[int], None] = lambda done: None,
 ) -> Series:
-    """Solve every position of one input turn, both ends included, each started from the last.
+    """Solve every position of one input turn, both ends included.
 
     Raises NotConverged with the position.
     """
     angle = np.linspace(0.0, 2 * np.pi, positions + 1)
-    contacts: list[Contact] = []
-    for i, place in enumerate(angle):
-        contacts.append(solve_at(design, rung, bodies, float(place), contacts[-1] if contacts else None))
-        progress(i + 1)
-    return _gathered(design, rung, angle, contacts)
+    parts: list[tuple[IntArray, Contact]] = []
+    for start in range(0, len(angle), CHUNK):
+        rows = np.arange(start, min(start + CHUNK, len(angle)))
+        parts.append((rows, solve_angles(design, rung, bodies, angle[rows])))
+        progress(int(rows[-1]) + 1)
+    return _gathered(design, rung, angle, joined(parts))
+
+
+def solve_angles(design: Design, rung: str, bodies: tuple[ElasticBody, ...], angle: Array) -> Contact:
+    """Solve positions at input angles (n,) in rad, side by side."""
+    problem = assembly(design, rung, bodies, angle * design.mesh_speed)
+    try:
+        return solve_positions(problem, resolve=rung == "strips")
+    except NotConverged as fault:
+        raise NotConverged(f"at input angle {np.degrees(angle[fault.row or 0]):.6g}°: {fault}") from fault
 
 
 def solve_at(
     design: Design, rung: str, bodies: tuple[ElasticBody, ...], angle: float, start: Contact | None = None
 ) -> Contact:
-    """Solve one position at an input angle in rad."""
+    """Solve one position at an input angle in rad; `start` is the solution of a neighbouring one."""
     problem = assembly(design, rung, bodies, angle * design.mesh_speed)
     try:
         return solve_position(problem, resolve=rung == "strips", start=start)
@@ -116,14 +128,14 @@ def solve_at(
         raise NotConverged(f"at input angle {np.degrees(angle):.6g}°: {fault}") from fault
 
 
-def _gathered(design: Design, rung: str, angle: Array, contacts: list[Contact]) -> Series:
+def _gathered(design: Design, rung: str, angle: Array, contact: Contact) -> Series:
     count = len(design.discs)
     width = {"ring": design.drive.face_width, "output": design.drive.face_width}
     width["bearing"] = design.drive.eccentric_bearing.roller_length
     kinds = {
-        kind: _touches(contacts, [f"{kind}{i}" for i in range(count)], width[kind])
+        kind: _touches([contact.touches[f"{kind}{i}"] for i in range(count)], width[kind])
         for kind in FAMILIES
-        if f"{kind}0" in contacts[0].touches
+        if f"{kind}0" in contact.touches
     }
     return Series(
         rung,
@@ -133,20 +145,19 @@ def _gathered(design: Design, rung: str, angle: Array, contacts: list[Contact]) 
         kinds["ring"],
         kinds["output"],
         kinds.get("bearing"),
-        frozen([c.motion for c in contacts]),
-        frozen([c.stiffness for c in contacts]),
-        max(c.imbalance for c in contacts),
-        max(c.penetration for c in contacts),
-        max(c.iterations for c in contacts),
+        frozen(contact.motion),
+        frozen(contact.stiffness),
+        float(contact.imbalance.max()),
+        float(contact.penetration.max()),
+        int(contact.iterations.max()),
     )
 
 
-def _touches(contacts: list[Contact], names: list[str], width: float) -> Touches:
-    grid = [[contact.touches[name] for name in names] for contact in contacts]
+def _touches(discs: Sequence[Touch], width: float) -> Touches:
     return Touches(
-        frozen([[t.force for t in row] for row in grid]),
-        frozen(np.array([[t.peak for t in row] for row in grid]) / width),
-        frozen([[t.half_width for t in row] for row in grid]),
-        frozen([[t.state.point for t in row] for row in grid]),
-        frozen([[t.state.normal for t in row] for row in grid]),
+        frozen(np.stack([t.force for t in discs], axis=1)),
+        frozen(np.stack([t.peak for t in discs], axis=1) / width),
+        frozen(np.stack([t.half_width for t in discs], axis=1)),
+        frozen(np.stack([t.state.point for t in discs], axis=1)),
+        frozen(np.stack([t.state.normal for t in discs], axis=1)),
     )

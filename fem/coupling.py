@@ -1,0 +1,53 @@
+"""What presses on contacts through the bodies that they share: the smooth compliance between all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from trochoid.fem.compliance import Compliance, Weights
+from trochoid.fem.pair import Seat, State
+from trochoid.kinematics.types import Array
+
+
+@dataclass(frozen=True, slots=True)
+class ElasticBody:
+    """A body as contacts see it: its compliance per unit thickness and its face width in m."""
+
+    compliance: Compliance
+    width: float
+
+
+@dataclass(frozen=True, slots=True)
+class Seated:
+    """Contacts of one family at the positions: their state, their seat on a body (None: rigid), and the smooth part
+    (c,) in m/N of their round sides.
+    """
+
+    state: State
+    seat: Seat | None
+    round_side: Array
+
+
+def coupling(bodies: Sequence[ElasticBody], contacts: Sequence[Seated]) -> Array:
+    """Return the compliance (n, C, C) in m/N between all contacts, without the logarithm of each one on itself."""
+    counts = np.cumsum([0] + [c.state.gap.shape[1] for c in contacts])
+    total = np.zeros((len(contacts[0].state.gap), counts[-1], counts[-1]))
+    total[:, np.arange(counts[-1]), np.arange(counts[-1])] = np.concatenate([c.round_side for c in contacts])
+    for number, body in enumerate(bodies):
+        on = [i for i, c in enumerate(contacts) if c.seat is not None and c.seat.body == number]
+        if on:
+            index = np.concatenate([np.arange(counts[i], counts[i + 1]) for i in on])
+            total[:, index[:, None], index] += through(body, [contacts[i] for i in on])
+    return total
+
+
+def through(body: ElasticBody, contacts: Sequence[Seated]) -> Array:
+    """Return the compliance (n, C, C) in m/N of contacts that press one body."""
+    weights = [
+        c.seat.weights(c.state.place) for c in contacts if c.seat is not None and c.state.place is not None
+    ]
+    points = np.concatenate([c.state.point for c in contacts], axis=1)
+    return body.compliance.between(Weights.joined(weights), points) / body.width
