@@ -1,39 +1,35 @@
-"""Hertz line contact in closed form: stress under an elliptical pressure, and the equivalent stress."""
+"""Hertz line contact in closed form: stress under an elliptical pressure, and the equivalent stresses."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from trochoid.fem.half_plane import below, ellipse, surface_stress
 from trochoid.fem.material import Plane
 from trochoid.kinematics.types import Array
 
 
-def hertz_stress(position: Array, half_width: float, load: float) -> Array:
+def hertz_stress(position: Array, half_width: float, load: float, tangential: float = 0.0) -> Array:
     """Return the stress (n, 3) σx, σz, τxz in Pa at `position` (n, 2): x along the surface, z into the body, in m.
 
-    `half_width` in m, `load` in N/m. McEwen; Johnson, Contact Mechanics (4.49).
+    `half_width` in m, `load` in N/m; `tangential` in N/m along x, spread like the pressure, as in sliding.
+    McEwen; Smith and Liu; Johnson, Contact Mechanics (4.49) and 7.1.
     """
-    x, z = position[:, 0], position[:, 1]
-    a = half_width
-    inner = a**2 - x**2 + z**2
-    root = np.sqrt(inner**2 + 4 * x**2 * z**2)
-    m2, n2 = np.maximum(0.5 * (root + inner), 1e-300), np.maximum(0.5 * (root - inner), 0.0)
-    m, n = np.sqrt(m2), np.sign(x) * np.sqrt(n2)
-    peak = 2 * load / (np.pi * a)
-    share = (z**2 + n2) / (m2 + n2)
-    stress = np.stack([m * (1 + share) - 2 * z, m * (1 - share), n * (m2 - z**2) / (m2 + n2)], axis=-1)
-    return np.asarray(-peak / a * stress)
+    zeta = below(position)
+    unit = ellipse(zeta, half_width)
+    return surface_stress(zeta, unit.scaled(load), unit.scaled(tangential))
 
 
-def hertz_stress_in_plane(
-    points: Array, center: Array, inward: Array, half_width: float, load: float
-) -> Array:
-    """Return the stress (n, 3) as xx, yy, xy in Pa at `points` (n, 2) of a contact at `center` with normal `inward`."""
-    along = np.array([inward[1], -inward[0]])
+def local_position(points: Array, center: Array, inward: Array) -> Array:
+    """Return positions (n, 2) along the surface and into the body, of `points` (n, 2) about a contact."""
     offset = points - center
-    local = np.stack([offset @ along, np.maximum(offset @ inward, 0.0)], axis=-1)
-    sx, sz, shear = hertz_stress(local, half_width, load).T
-    (ax, ay), (bx, by) = along, inward
+    return np.stack([offset @ _along(inward), np.maximum(offset @ inward, 0.0)], axis=-1)
+
+
+def in_plane(stress: Array, inward: Array) -> Array:
+    """Turn σx, σz, τxz (n, 3) of a contact into xx, yy, xy (n, 3) of the plane."""
+    sx, sz, shear = stress.T
+    (ax, ay), (bx, by) = _along(inward), inward
     return np.stack(
         [
             sx * ax * ax + sz * bx * bx + 2 * shear * ax * bx,
@@ -44,6 +40,17 @@ def hertz_stress_in_plane(
     )
 
 
+def hertz_stress_in_plane(
+    points: Array, center: Array, inward: Array, half_width: float, load: float, tangential: float = 0.0
+) -> Array:
+    """Return the stress (n, 3) as xx, yy, xy in Pa at `points` (n, 2) of a contact at `center` with normal `inward`.
+
+    `tangential` acts along (inward_y, −inward_x): the outward normal turned by +90°.
+    """
+    local = local_position(points, center, inward)
+    return in_plane(hertz_stress(local, half_width, load, tangential), inward)
+
+
 def von_mises(stress: Array, plane: Plane) -> Array:
     """Return the equivalent stress (…,) of xx, yy, xy (…, 3)."""
     x, y, shear = np.moveaxis(stress, -1, 0)
@@ -51,6 +58,20 @@ def von_mises(stress: Array, plane: Plane) -> Array:
     return np.asarray(np.sqrt(0.5 * ((x - y) ** 2 + (y - out) ** 2 + (out - x) ** 2) + 3 * shear**2))
 
 
+def max_shear(stress: Array, plane: Plane) -> Array:
+    """Return the largest shear stress (…,) of xx, yy, xy (…, 3): half the largest difference of principal stresses.
+
+    The stress out of the plane is one of the three.
+    """
+    x, y, shear = np.moveaxis(stress, -1, 0)
+    mean, radius = 0.5 * (x + y), np.hypot(0.5 * (x - y), shear)
+    return np.asarray(np.maximum(radius, 0.5 * (radius + np.abs(mean - out_of_plane(stress, plane)))))
+
+
 def out_of_plane(stress: Array, plane: Plane) -> Array:
     """Return the stress zz (…,) that holds the plane state."""
     return np.asarray(plane.out_of_plane * plane.poissons_ratio * (stress[..., 0] + stress[..., 1]))
+
+
+def _along(inward: Array) -> Array:
+    return np.array([inward[1], -inward[0]])

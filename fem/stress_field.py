@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from trochoid.fem.body import Body
-from trochoid.fem.hertz import out_of_plane, von_mises
+from trochoid.fem.hertz import max_shear, out_of_plane, von_mises
 from trochoid.fem.stress import Press, State, basis, sample, solve_state
+from trochoid.fem.stress_peak import Measure, Peak, Spot, depth, highest
 from trochoid.kinematics.types import Array, BoolArray, IntArray, frozen
 
 CUTS = 9  # at the most: a triangle is halved that often
@@ -26,8 +27,8 @@ CHILDREN = ((0, 3, 5), (3, 1, 4), (5, 4, 2), (4, 5, 3))  # of a triangle, by its
 class StressField:
     """Fields on quadratic triangles.
 
-    `points` (n, 2) m, `triangles` (6, m), `displacement` (n, 2) m, `stress` (n, 4) xx, yy, zz, xy and
-    `von_mises` (n,) Pa; `largest` von Mises stress and its `place` (2,).
+    `points` (n, 2) m, `triangles` (6, m), `displacement` (n, 2) m, `stress` (n, 4) xx, yy, zz, xy, `von_mises`
+    (n,) and `max_shear` (n,) Pa, half the largest difference of principal stresses. The peaks of both have a node.
     """
 
     points: Array
@@ -35,15 +36,17 @@ class StressField:
     displacement: Array
     stress: Array
     von_mises: Array
-    largest: float
-    place: Array
+    max_shear: Array
+    von_mises_peak: Peak
+    max_shear_peak: Peak
 
 
 def stress_field(body: Body, presses: Sequence[Press]) -> StressField:
     """Return the field of a body under contacts."""
-    state = solve_state(body, presses)
+    state, mesh = solve_state(body, presses), body.mesh
     whole, elements, corners = _cut(state)
-    mesh = body.mesh
+    for spot in _highest(state, elements, corners):
+        elements, corners = _with_node(elements, corners, spot)
     everywhere = np.arange(mesh.triangles.shape[1])
     _, moved, stressed = sample(state, everywhere, np.broadcast_to(basis(NODES), (len(everywhere), 6, 6)))
     fine, fine_moved, fine_stressed = sample(state, elements, basis(_six(corners)))
@@ -54,9 +57,9 @@ def stress_field(body: Body, presses: Sequence[Press]) -> StressField:
     points = np.concatenate([mesh.points, fine.reshape(-1, 2)])
     displacement = np.concatenate([_averaged(body, moved), fine_moved.reshape(-1, 2)])
     stress = np.concatenate([_averaged(body, stressed), fine_stressed.reshape(-1, 3)])
-    equivalent = von_mises(stress, body.plane)
+    fields = [measure(stress) for measure in _measures(body)]
     used = np.unique(triangles)
-    top = used[int(np.argmax(equivalent[used]))]
+    peaks = [_peak(body, points, values, used) for values in fields]
     full = np.column_stack([stress[:, 0], stress[:, 1], out_of_plane(stress, body.plane), stress[:, 2]])
     triangles.setflags(write=False)
     return StressField(
@@ -64,10 +67,55 @@ def stress_field(body: Body, presses: Sequence[Press]) -> StressField:
         triangles,
         frozen(displacement),
         frozen(full),
-        frozen(equivalent),
-        float(equivalent[top]),
-        frozen(points[top]),
+        frozen(fields[0]),
+        frozen(fields[1]),
+        *peaks,
     )
+
+
+def _measures(body: Body) -> tuple[Measure, Measure]:
+    return lambda stress: von_mises(stress, body.plane), lambda stress: max_shear(stress, body.plane)
+
+
+def _highest(state: State, elements: IntArray, corners: Array) -> list[Spot]:
+    """Return the highest place of each measure in the cut triangles (k,) with reference corners (k, 3, 2)."""
+    if len(elements) == 0:
+        return []
+    six = _six(corners)
+    points, _, stress = sample(state, elements, basis(six))
+    size = np.linalg.norm(points[:, :3] - np.roll(points[:, :3], 1, axis=1), axis=-1).max(axis=1)
+    nodes = np.repeat(elements, 6), six.reshape(-1, 2)
+    return [
+        highest(state, measure, *nodes, measure(stress).ravel(), np.repeat(size, 6))
+        for measure in _measures(state.body)
+    ]
+
+
+def _with_node(elements: IntArray, corners: Array, spot: Spot) -> tuple[IntArray, Array]:
+    """Divide the triangle that holds a place into three about it, so that it is a node."""
+    of = np.flatnonzero(elements == spot.element)
+    if len(of) == 0:
+        return elements, corners
+    first, sides = (
+        corners[of, 0],
+        np.stack([corners[of, 1], corners[of, 2]], axis=-1) - corners[of, 0, :, None],
+    )
+    share = np.linalg.solve(sides, (spot.reference - first)[..., None])[..., 0]
+    least = np.minimum(share.min(axis=1), 1 - share.sum(axis=1))
+    cut = of[int(np.argmax(least))]
+    parts = np.tile(corners[cut], (3, 1, 1))
+    parts[np.arange(3), np.arange(3)] = spot.reference
+    area = np.linalg.det(np.stack([parts[:, 1] - parts[:, 0], parts[:, 2] - parts[:, 0]], axis=1))
+    parts = parts[area > 1e-6 * area.sum()]  # on a side there are two, at a corner one
+    return (
+        np.concatenate([np.delete(elements, cut), np.full(len(parts), spot.element)]),
+        np.concatenate([np.delete(corners, cut, axis=0), parts]),
+    )
+
+
+def _peak(body: Body, points: Array, values: Array, used: IntArray) -> Peak:
+    top = used[int(np.argmax(values[used]))]
+    return Peak(float(values[top]), int(top), frozen(points[top]), depth(body.mesh, points[top]))
 
 
 def _cut(state: State) -> tuple[BoolArray, IntArray, Array]:

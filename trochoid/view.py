@@ -19,9 +19,7 @@ Body: TypeAlias = Any  # pyvista's grids and plotters; its decorators hide their
 Plotter: TypeAlias = Any
 
 _VISIBLE = 0.02  # largest displacement as a share of a body's size, once exaggerated
-_SHOWN = (
-    60.0  # percentile of the nodes at which the colours end: they crowd at the contacts, far above the rest
-)
+_SHOWN = 0.995  # share of the area whose stress the colours reach: at the contacts it is far above the rest
 _STRESS = "von Mises stress (MPa)"
 _INK = "#1f2933"
 
@@ -98,13 +96,22 @@ def _draw(plotter: Plotter, bodies: Sequence[Body]) -> None:
     lengths = (np.linalg.norm(b["displacement"], axis=1) for b in bodies if "displacement" in b.point_data)
     moved = max((float(length.max()) for length in lengths), default=0.0)
     factor = exaggeration(max(body.length for body in bodies), moved)
-    stresses = [body["von_mises"] * 1e-6 for body in bodies if "von_mises" in body.point_data]
-    limits = [0.0, float(np.percentile(np.concatenate(stresses), _SHOWN))] if stresses else None
+    stressed = [body for body in bodies if "von_mises" in body.point_data]
+    limits = [0.0, 1e-6 * _reached(stressed, _SHOWN)] if stressed else None
     for index, body in enumerate(bodies):
         plotter.subplot(0, index)
         _add(plotter, body, factor, limits)
         plotter.view_xy()
         plotter.camera.zoom(1.05)
+
+
+def _reached(bodies: Sequence[Body], share: float) -> float:
+    """Return the von Mises stress in Pa that this share of the bodies' area stays below."""
+    area = np.concatenate([body.compute_cell_sizes(length=False, volume=False)["Area"] for body in bodies])
+    stress = np.concatenate([body.point_data_to_cell_data()["von_mises"] for body in bodies])
+    order = np.argsort(stress)
+    filled = np.cumsum(area[order])
+    return float(stress[order][np.searchsorted(filled, share * filled[-1])])
 
 
 def _add(plotter: Plotter, body: Body, factor: float, limits: list[float] | None) -> None:

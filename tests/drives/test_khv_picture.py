@@ -164,6 +164,9 @@ def test_von_mises_belongs_to_the_stress(elastic: Stages) -> None:
         squares = 0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * xy**2
         np.testing.assert_allclose(np.sqrt(squares), body.point_data["von_mises"], rtol=1e-9)
         assert body.point_data["von_mises"].max() > 1e7
+        in_plane = np.hypot(0.5 * (xx - yy), xy)
+        largest = np.maximum(in_plane, 0.5 * (in_plane + np.abs(0.5 * (xx + yy) - zz)))
+        np.testing.assert_allclose(largest, body.point_data["max_shear"], rtol=1e-9)
 
 
 @pytest.mark.exact

@@ -11,7 +11,7 @@ from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.series import FAMILIES, solve_at
 from trochoid.fem.pair import rotation
 from trochoid.fem.position import Contact
-from trochoid.fem.stress import Press
+from trochoid.fem.stress import Press, pressed
 from trochoid.fem.stress_field import StressField, stress_field
 from trochoid.kinematics.types import Array, frozen
 
@@ -56,21 +56,11 @@ def _state(design: Design, level: Level, contact: Contact, angle: float, i: int)
 
 def presses(design: Design, contact: Contact, i: int, turn: float) -> list[Press]:
     """Return all contacts of disc i as line loads in its own frame."""
-    disc, width = design.discs[i], design.drive.face_width
-    pins = design.drive.output_pins.count
+    pins, first = design.drive.output_pins.count, design.discs[i].first_hole
     found = []
     for kind in FAMILIES:
         touch = contact.touches[f"{kind}{i}"]
-        for j in np.flatnonzero(touch.force > 0):
-            edge = {"ring": "flank", "bearing": "bore"}.get(kind, f"hole{(j + disc.first_hole) % pins}")
-            normal = touch.state.normal[j] @ rotation(turn)
-            found.append(
-                Press(
-                    edge,
-                    float(touch.state.parameter[j]),
-                    normal,
-                    float(touch.force[j]) / width,
-                    float(touch.half_width[j]),
-                )
-            )
+        holes = [f"hole{(j + first) % pins}" for j in range(len(touch.force))]
+        edges = {"ring": ["flank"] * len(holes), "bearing": ["bore"] * len(holes)}.get(kind, holes)
+        found += pressed(touch, edges, turn, design.drive.face_width)
     return found

@@ -147,6 +147,7 @@ def fields(stages: Stages) -> tuple[FieldFrame, ...]:
             "displacement": frozen(turned(state.displacement, turn)),
             "stress": frozen(turned_stress(state.field.stress, state.turn + turn)),
             "von_mises": state.field.von_mises,
+            "max_shear": state.field.max_shear,
         }
         bodies.append(Field(_name(i), frozen(points), state.field.triangles, data))
     return ((states[0].angle, tuple(bodies)),)
