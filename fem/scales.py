@@ -57,7 +57,6 @@ def scales(problem: Problem) -> tuple[Scale, Array]:
     finite = np.isfinite(gaps)
     some = finite.any(axis=1)
     top, low = np.where(finite, gaps, -np.inf).max(axis=1), np.where(finite, gaps, np.inf).min(axis=1)
-    reach = np.where(some, top, 0.0) - np.where(some, low, 0.0)
     force = np.abs(problem.load * unit).max(axis=1, initial=0.0)
     bounds = [
         np.where(np.isfinite(b), np.abs(b), 0.0)
@@ -70,7 +69,7 @@ def scales(problem: Problem) -> tuple[Scale, Array]:
     gap = np.maximum(np.where(some, np.maximum(np.abs(top), np.abs(low)), 0.0), typical * force)
     force = np.where(force == 0.0, np.where(gap > 0, gap / typical, 1.0), force)
     gap = np.where(gap == 0.0, typical * force, gap)
-    distance = 10 * (reach + typical * force)
+    distance = 10 * (gap + typical * force)
     far = 1e3 * (gap + own.max(axis=1, initial=0.0) * force)
     kappa = (force / distance)[:, None] / unit**2
     return Scale(force, gap, 1 / typical, far, unit), kappa

@@ -193,11 +193,11 @@ def _bearing(
         member, cage, np.zeros((count, 2)), design.drive.bore_radius, rollers, bearing.roller_radius, seat
     )
     one = plane(design).kernel / bearing.roller_length
-    wider = 0.0 if body is None else _widening(design)
+    wider = 0.0 if body is None else widening(design)
     if not motions.floating:  # rigid rollers on a rigid eccentric: the seat's own Hertz contact is left
         return [Family(f"bearing{i}", pair, np.full(count, one), np.full(count, wider))]
     law = PowerLaw(roller_constant(design), EXPONENT)
-    side = np.full(count, 0.0 if body is None else wider + _seat_for_seat(design, law, one))
+    side = np.full(count, 0.0 if body is None else wider + seat_for_seat(design, law, one))
     return [Family(f"bearing{i}", pair, np.full(count, 2 * one), side, law)]
 
 
@@ -209,7 +209,7 @@ def roller_constant(design: Design) -> float:
     return iso16281_constant(design.drive.eccentric_bearing.roller_length) * plane(design).modulus / steel
 
 
-def _widening(design: Design) -> float:
+def widening(design: Design) -> float:
     """Return the compliance in m/N that the bore lacks because a roller's load spreads over the whole face width.
 
     The contact's logarithm counts with the roller's length, the body's with the face width; they meet at the
@@ -221,7 +221,7 @@ def _widening(design: Design) -> float:
     return float(plane(design).kernel * (1 / length - 1 / width) * np.log(0.5 * (width - length)))
 
 
-def _seat_for_seat(design: Design, law: PowerLaw, one: float) -> float:
+def seat_for_seat(design: Design, law: PowerLaw, one: float) -> float:
     """Return what turns the seat that ISO/TS 16281 contains into none, plus the real seat's own logarithm, in m/N.
 
     The standard's line contact comprises both raceways in thick bodies. Its outer seat is what is left of it
