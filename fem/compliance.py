@@ -177,7 +177,7 @@ def _read(
         csc_matrix((d.T.ravel(), (dofs.ravel(), columns.ravel())), shape=(body.size, dofs.shape[1]))
         for d in measured
     ]
-    return np.split(displaced(body, hstack(seen, format="csc"), loads, means), len(measured))
+    return displaced(body, seen, loads, means)
 
 
 def _add_singular(

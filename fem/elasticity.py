@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csc_matrix
+from scipy.spatial import cKDTree
 from skfem import Basis, ElementTriP2, MeshTri2
 
 from trochoid.fem.material import Plane
@@ -20,7 +21,8 @@ from trochoid.kinematics.types import Array, IntArray
 @dataclass(frozen=True, slots=True)
 class Elements:
     """Element data of a mesh: `stiffness` (m, 12, 12) for unit thickness, `dofs` (m, 12), `areas` (m, 6) of the
-    elements' nodes in m² and their sums `weight` (n,) over the elements round a node.
+    elements' nodes in m² and their sums `weight` (n,) over the elements round a node; `near` finds `centroids` (m, 2)
+    by place.
     """
 
     stiffness: Array
@@ -28,6 +30,7 @@ class Elements:
     areas: Array
     weight: Array
     centroids: Array
+    near: cKDTree
 
 
 def quadratic_mesh(mesh: Mesh) -> MeshTri2:
@@ -54,7 +57,7 @@ def elements(mesh: Mesh, plane: Plane) -> Elements:
     np.add.at(weight, triangles, areas)
     dofs = np.stack([2 * triangles, 2 * triangles + 1], axis=-1).reshape(-1, 12)
     centroids = mesh.points[triangles[:, :3]].mean(axis=1)
-    return Elements(stiffness.reshape(-1, 12, 12), dofs, areas, weight, centroids)
+    return Elements(stiffness.reshape(-1, 12, 12), dofs, areas, weight, centroids, cKDTree(centroids))
 
 
 def assemble(parts: Elements, size: int) -> csc_matrix:

@@ -89,7 +89,7 @@ def patch_load(body: Body, load: PointForce, radius: float = RADIUS) -> Patch:
 def _grow(body: Body, load: PointForce, radius: float) -> IntArray:
     """Grow D from the loaded element: near, off the supports, and off the outward normal where the logarithm is cut."""
     turn = complex(load.inward[0], -load.inward[1])
-    near = np.flatnonzero(np.hypot(*(body.parts.centroids - load.point).T) < radius)
+    near = np.array(body.parts.near.query_ball_point(load.point, radius), dtype=np.intp)
     corners = body.mesh.triangles[:, near]
     relative = body.mesh.points[corners] - load.point
     z = (relative[..., 0] + 1j * relative[..., 1]) * turn

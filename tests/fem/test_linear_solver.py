@@ -65,7 +65,70 @@ def test_body_that_is_not_held_is_refused(solver: str) -> None:
         linear_solver.factorise(free, solver)
 
 
+@solvers
 @pytest.mark.property
-def test_superlu_is_always_installed() -> None:
-    """The seam has a solver that comes with SciPy; the fastest is first."""
-    assert linear_solver.installed()[-1] == "superlu"
+def test_indefinite_matrix_is_refused(solver: str) -> None:
+    """A regular matrix with one negative eigenvalue can be factored by elimination, but is no stiffness."""
+    matrix = _positive(40).tolil()
+    matrix[7, 7] -= 100.0
+    with pytest.raises(TrochoidError, match="not positive definite"):
+        linear_solver.factorise(csc_matrix(matrix), solver)
+
+
+@solvers
+@pytest.mark.property
+def test_caller_does_not_choose(solver: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without a name the first of those installed is taken: here each one is made the first in turn."""
+    taken: list[str] = []
+    package, factor = linear_solver.SOLVERS[solver]
+
+    def noted(matrix: csc_matrix) -> linear_solver.Solve:
+        taken.append(solver)
+        return factor(matrix)
+
+    others = {name: entry for name, entry in linear_solver.SOLVERS.items() if name != solver}
+    monkeypatch.setattr(linear_solver, "SOLVERS", {solver: (package, noted), **others})
+    linear_solver.factorise(_positive(20))
+    assert taken == [solver]
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("missing", "left"),
+    [
+        ((), ("cholmod", "pardiso", "superlu")),
+        (("pypardiso",), ("cholmod", "superlu")),
+        (("cvxopt",), ("pardiso", "superlu")),
+        (("pypardiso", "cvxopt"), ("superlu",)),
+    ],
+)
+def test_fastest_installed_is_first(
+    missing: tuple[str, ...], left: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The order is fixed, what is not installed drops out, and SuperLU, which comes with SciPy, is always left."""
+    monkeypatch.setattr(linear_solver, "find_spec", lambda name: None if name in missing else object())
+    assert linear_solver.installed() == left
+
+
+@pytest.mark.property
+def test_superlu_does_it_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With neither pypardiso nor cvxopt a body is built all the same."""
+    monkeypatch.setattr(linear_solver, "find_spec", lambda name: object() if name == "scipy" else None)
+    mesh, _ = small_mesh()
+    load = np.ones((2 * len(mesh.points), 1))
+    assert np.isfinite(build_body(mesh, STEEL, ("bore",)).solve(load)).all()
+
+
+@pytest.mark.property
+def test_unknown_solver_is_refused() -> None:
+    """The complaint lists what is known and what is installed."""
+    with pytest.raises(TrochoidError, match=r'no solver "mumps" \(known are .*\); installed are .*superlu'):
+        linear_solver.factorise(_positive(10), "mumps")
+
+
+@pytest.mark.property
+def test_solver_that_is_not_installed_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is not replaced in silence by another one."""
+    monkeypatch.setattr(linear_solver, "find_spec", lambda name: object() if name == "scipy" else None)
+    with pytest.raises(TrochoidError, match='no solver "cholmod"; installed are superlu'):
+        linear_solver.factorise(_positive(10), "cholmod")
