@@ -65,6 +65,12 @@ def solve_all(problem: Problem, start: Solution | None = None, most: int = PIVOT
     Raises NotConverged, with the position's number, when a loaded motion is resisted by nothing, or the pivots run out.
     """
     tried = attempt(problem, start, most)
+    if tried.faults and start is not None:  # a start is a hint, and never the reason to fail
+        lost = np.array(sorted(tried.faults))
+        fresh = attempt(taken(problem, lost), None, most)
+        left = np.setdiff1d(np.arange(len(problem.load)), lost)
+        solution = joined([(left, taken(tried.solution, left)), (lost, fresh.solution)])
+        tried = Attempt(solution, {int(lost[i]): message for i, message in fresh.faults.items()})
     if tried.faults:
         row = min(tried.faults)
         raise NotConverged(tried.faults[row], row)

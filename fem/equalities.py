@@ -198,10 +198,18 @@ def _totals(
     right = np.concatenate(
         [np.where(inside == 0.0, 0.0, np.take_along_axis(rest, order, 1)), load * scale], axis=1
     )
-    answer = np.linalg.solve(system, right[..., None])[..., 0]
+    answer = _solve(system, right[..., None])[..., 0]
     total = known
     np.put_along_axis(total, order, answer[:, :count] + np.take_along_axis(known, order, 1), 1)
     return total, answer[:, count:] * scale
+
+
+def _solve(matrices: Array, right: Array) -> Array:
+    """Solve linear systems; singular ones, which rounding makes, in the sense of least squares."""
+    try:
+        return np.asarray(np.linalg.solve(matrices, right))
+    except np.linalg.LinAlgError:
+        return np.asarray([np.linalg.lstsq(m, r)[0] for m, r in zip(matrices, right, strict=True)])
 
 
 def _touching_first(one: Array) -> IntArray:
