@@ -16,7 +16,7 @@ import numpy as np
 
 from benchmarks import ccx
 from benchmarks.disc import FLANK, STEEL, TORQUE, WIDTH
-from benchmarks.speed import positions
+from benchmarks.disc import positions
 from benchmarks.table import Row, Table
 from trochoid.fem.body import build_body
 from trochoid.fem.compliance import press

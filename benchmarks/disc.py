@@ -16,7 +16,7 @@ from trochoid.fem.body import build_body
 from trochoid.fem.compliance import press
 from trochoid.fem.material import Material
 from trochoid.fem.pair import FlankPair, Member
-from trochoid.fem.position import Assembly, Contact, ElasticBody, Family, solve_position
+from trochoid.fem.position import Assembly, Contact, ElasticBody, Family, solve_positions
 from trochoid.geometry.disc import disc_outline
 from trochoid.geometry.mesh import mesh_outline
 from trochoid.kinematics.cycloid import Cycloid
@@ -78,24 +78,23 @@ def turn(facets: int, holes: int) -> Turn:
     body = build_body(mesh_outline(outline), STEEL, supports=("bore",))
     elastic = ElasticBody(press(body, [outline.outer]), WIDTH)
     built = perf_counter()
-    angles = 2 * np.pi * np.arange(POSITIONS) / POSITIONS
-    contacts = [position(elastic, float(angle)) for angle in angles]
+    found = positions(elastic, 2 * np.pi * np.arange(POSITIONS) / POSITIONS)
     return Turn(
         len(body.mesh.points),
-        np.array([c.motion[0] for c in contacts]),
-        np.array([c.stiffness[0, 0] for c in contacts]),
-        np.array([c.touches["pins"].force for c in contacts]),
+        found.motion[:, 0],
+        found.stiffness[:, 0, 0],
+        found.touches["pins"].force,
         built - start,
         (perf_counter() - built) / POSITIONS,
     )
 
 
-def position(elastic: ElasticBody, crank: float) -> Contact:
-    """Solve one position: the disc turns, the ring with its pins stands still."""
+def positions(elastic: ElasticBody, crank: Array, resolve: bool = False) -> Contact:
+    """Solve the disc at crank angles (n,) side by side: it turns, the ring with its pins stands still."""
     pose = khv_motions(FLANK, crank)["disc0"]
-    disc = Member(pose.center[0], float(pose.rotation[0]), np.array([[0.0], [0.0], [1.0]]))
+    disc = Member(pose.center, pose.rotation, np.array([[0.0], [0.0], [1.0]]))
     ring = Member(np.zeros(2), 0.0, np.zeros((3, 1)))
     pair = FlankPair.nominal(disc, ring, FLANK, crank, elastic.compliance.surfaces["flank"])
-    kernel = np.full(FLANK.pins, STEEL.kernel / WIDTH)
-    family = Family("pins", pair, kernel, np.zeros(FLANK.pins))
-    return solve_position(Assembly((family,), (elastic,), np.zeros((1, 1)), np.array([TORQUE])))
+    family = Family("pins", pair, np.full(FLANK.pins, STEEL.kernel / WIDTH), np.zeros(FLANK.pins))
+    load = np.full((len(crank), 1), TORQUE)
+    return solve_positions(Assembly((family,), (elastic,), np.zeros((1, 1)), load), resolve)

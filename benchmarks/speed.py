@@ -5,21 +5,18 @@ Targets are for processor time on one thread: on a machine that does nothing els
 
 from __future__ import annotations
 
-from dataclasses import replace
 from time import perf_counter, process_time
 
 import numpy as np
 
-from benchmarks.disc import FLANK, STEEL, TORQUE, WIDTH
+from benchmarks.disc import FLANK, STEEL, WIDTH, positions
 from benchmarks.table import Row, Table
 from trochoid.fem.body import build_body
 from trochoid.fem.compliance import press
-from trochoid.fem.pair import FlankPair, Member
-from trochoid.fem.position import Assembly, Contact, ElasticBody, Family, solve_positions
+from trochoid.fem.position import ElasticBody
 from trochoid.fem.strips import STRIPS
 from trochoid.geometry.disc import disc_outline
 from trochoid.geometry.mesh import mesh_outline
-from trochoid.kinematics.motion import khv_motions
 from trochoid.kinematics.types import Array
 
 POSITIONS, HOLES, FACETS, REPEATS = 600, 8, 12, 3
@@ -67,16 +64,3 @@ def _best(elastic: ElasticBody, angles: Array, resolve: bool) -> tuple[float, fl
         wall.append(perf_counter() - start[0])
         processor.append(process_time() - start[1])
     return min(wall) / len(angles), min(processor) / len(angles)
-
-
-def positions(elastic: ElasticBody, crank: Array, resolve: bool = False, torque: float = TORQUE) -> Contact:
-    """Solve the disc at crank angles (n,) side by side: it turns, the ring with its pins stands still."""
-    pose, number = khv_motions(FLANK, crank)["disc0"], np.arange(FLANK.pins)
-    disc = Member(pose.center, pose.rotation, np.array([[0.0], [0.0], [1.0]]))
-    ring = Member(np.zeros(2), 0.0, np.zeros((3, 1)))
-    pair = FlankPair.nominal(disc, ring, FLANK, 0.0, elastic.compliance.surfaces["flank"])
-    pair = replace(pair, parameter=FLANK.contact_parameter(number, crank[:, None]))
-    kernel = np.full(FLANK.pins, STEEL.kernel / WIDTH)
-    family = Family("pins", pair, kernel, np.zeros(FLANK.pins))
-    load = np.full((len(crank), 1), torque)
-    return solve_positions(Assembly((family,), (elastic,), np.zeros((1, 1)), load), resolve)

@@ -199,12 +199,12 @@ class FlankPair:
 
     @staticmethod
     def nominal(
-        disc: Member, ring: Member, flank: Cycloid, crank_angle: float, surface: Surface | None = None
+        disc: Member, ring: Member, flank: Cycloid, crank_angle: Array | float, surface: Surface | None = None
     ) -> FlankPair:
-        """Return an unmodified flank against all pins at a crank angle in rad; they press a `surface` of body 0."""
+        """Return an unmodified flank against all pins at crank angles (n) in rad; they press a `surface` of body 0."""
         number = np.arange(flank.pins)
         pins = Circle((0.0, 0.0), flank.pin_circle_radius).point(2 * np.pi * number / flank.pins)
-        start = flank.contact_parameter(number, crank_angle)
+        start = flank.contact_parameter(number, np.asarray(crank_angle)[..., None])
         seat = None if surface is None else Seat.on(0, [surface] * flank.pins)
         return FlankPair(disc, ring, flank, Modification(), 0.0, pins, start, ArcLength(flank), seat)
 

@@ -62,7 +62,7 @@ class State:
     smooth: Array
 
 
-def pressed(touch: Touch, edges: Sequence[str], turn: float, width: float) -> list[Press]:
+def pressed(touch: Touch, edges: Sequence[str], turn: Array | float, width: float) -> list[Press]:
     """Return what a body feels of one family of contacts, in its own frame.
 
     `edges` (c,) names of the edges pressed, `turn` angle of the body's frame in rad, `width` of its face in m.
