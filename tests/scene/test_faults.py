@@ -110,10 +110,10 @@ def faults_of(text: str, *overrides: str | Override) -> tuple[Fault, ...]:
         ('"ratio"', '"ratoi"', 'ask.quantities.0: unknown quantity "ratoi"; did you mean "ratio"?'),
         (
             '"ratio"',
-            '"efficiency"',
-            'ask.quantities.0: "efficiency" is not offered by khv; it offers: ratio, ',
+            '"mesh_stiffness"',
+            'ask.quantities.0: "mesh_stiffness" is not offered by khv; it offers: ratio, ',
         ),
-        ('"ratio"', '"mass"', 'ask.quantities.17: "mass" stands twice in ask.quantities'),
+        ('"ratio"', '"mass"', 'ask.quantities.22: "mass" stands twice in ask.quantities'),
         ('"ratio"', "3", "ask.quantities.0: given 3; need a text"),
         ("positions = 60", "positions = 0", "ask.positions: given 0; need a whole number from 1 to 100000"),
         (
