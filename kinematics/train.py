@@ -13,11 +13,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
 
-from trochoid.kinematics.errors import TrochoidError
+from trochoid.kinematics.errors import Infeasible, TrochoidError
+from trochoid.kinematics.rational import Row, null_space
 
 FRAME = "frame"
-
-Row = list[Fraction]
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +72,10 @@ def khv_train(pins: int, lobes: int) -> Train:
     """K-H-V drive: "input" crank, "disc" with lobes, "ring" of pins, "output" that turns with the disc.
 
     The unit of length is the eccentricity over pins − lobes, so the pitch radii are the tooth numbers.
+    Raises Infeasible.
     """
+    _fail_if_toothless(pins=pins, lobes=lobes)
+    _fail_if_not_inside("lobes", lobes, "pins", pins)
     eccentricity = Fraction(pins - lobes)
     central = ("input", "ring", "output")
     pairs: tuple[Pair, ...] = (
@@ -85,21 +87,73 @@ def khv_train(pins: int, lobes: int) -> Train:
     return Train(("input", "disc", "ring", "output"), pairs)
 
 
+def rv_train(sun: int, planet: int, lobes: int, pins: int) -> Train:
+    """2K-V drive (sources §1): "sun", "planet" fast on its crank, "disc", "ring" of pins, "carrier".
+
+    The parallel cranks on which the disc sits let it turn only as the carrier does.  Lengths of the two stages
+    have units of their own, half a module and the eccentricity; no speed depends on either.  Raises Infeasible.
+    """
+    _fail_if_toothless(sun=sun, planet=planet, lobes=lobes, pins=pins)
+    _fail_if_not_inside("lobes", lobes, "pins", pins)
+    axis, eccentricity = Fraction(sun + planet), Fraction(1)
+    pairs: tuple[Pair, ...] = (
+        *(Pivot(FRAME, member) for member in ("sun", "ring", "carrier")),
+        Pivot("carrier", "planet", axis),
+        Rolling("sun", "planet", Fraction(sun)),
+        Pivot("planet", "disc", axis + eccentricity),
+        EqualTurning("disc", "carrier"),
+        Rolling("disc", "ring", eccentricity * pins / (pins - lobes)),
+    )
+    return Train(("sun", "planet", "disc", "ring", "carrier"), pairs)
+
+
+def planetary_train(sun: int, planet: int, ring: int) -> Train:
+    """2K-H set: "sun", "planet", "ring", "carrier"; the unit of length is the centre distance.
+
+    The two meshes have pitch circles of their own on the planet, which are one only if ring = sun + 2 planet;
+    other tooth numbers run with profile shift.  Raises Infeasible.
+    """
+    _fail_if_toothless(sun=sun, planet=planet, ring=ring)
+    _fail_if_not_inside("planet", planet, "ring", ring)
+    pairs: tuple[Pair, ...] = (
+        *(Pivot(FRAME, member) for member in ("sun", "ring", "carrier")),
+        Pivot("carrier", "planet", Fraction(1)),
+        Rolling("sun", "planet", Fraction(sun, sun + planet)),
+        Rolling("planet", "ring", Fraction(ring, ring - planet)),
+    )
+    return Train(("sun", "planet", "ring", "carrier"), pairs)
+
+
 def speeds(train: Train, fixed: str = "ring", driving: str = "input", driven: str = "output") -> Speeds:
     """Speeds with one member fixed and another driving; raises TrochoidError if that cannot work."""
-    _fail_if_unknown(train, fixed, driving, driven)
-    if len({fixed, driving, driven}) < 3:
-        raise TrochoidError(
-            f"fixed = {fixed}, driving = {driving}, driven = {driven}: three different members are needed; "
-            f"choose among {', '.join(train.members)}"
-        )
+    fail_if_no_choice(train.members, fixed, driving, driven)
     columns = 2 * len(train.members)
     rows = [_row(train, pair) for pair in train.pairs]
-    free = _null_space([*rows, _unit(columns, _turning(train, fixed))], columns)
+    stands = [Fraction(int(j == _turning(train, fixed))) for j in range(columns)]
+    free = null_space([*rows, stands], columns)
     if len(free) != 1:
         state = "locks" if not free else f"leaves {len(free)} freedoms in"
         raise TrochoidError(f"fixing {fixed} {state} the train; fix another member")
     turning = {member: free[0][_turning(train, member)] for member in train.members}
+    return over_driving(turning, fixed, driving, driven)
+
+
+def fail_if_no_choice(members: Iterable[str], fixed: str, driving: str, driven: str) -> None:
+    """Raise TrochoidError unless these are three different ones of the members."""
+    known = tuple(members)
+    names = ", ".join(known)
+    for name in (fixed, driving, driven):
+        if name not in known:
+            raise TrochoidError(f"'{name}' is no member of this train; its members are {names}")
+    if len({fixed, driving, driven}) < 3:
+        raise TrochoidError(
+            f"fixed = {fixed}, driving = {driving}, driven = {driven}: three different members are needed; "
+            f"choose among {names}"
+        )
+
+
+def over_driving(turning: Mapping[str, Fraction], fixed: str, driving: str, driven: str) -> Speeds:
+    """Speeds over that of the driving member; raises TrochoidError where that or the driven one stands still."""
     for role, member in (("driving", driving), ("driven", driven)):
         if turning[member] == 0:
             raise TrochoidError(
@@ -109,21 +163,24 @@ def speeds(train: Train, fixed: str = "ring", driving: str = "input", driven: st
     return Speeds(MappingProxyType(relative), 1 / relative[driven])
 
 
-def _fail_if_unknown(train: Train, *names: str) -> None:
-    for name in names:
-        if name not in train.members:
-            raise TrochoidError(
-                f"'{name}' is no member of this train; its members are {', '.join(train.members)}"
-            )
+def _fail_if_toothless(**teeth: int) -> None:
+    for name, count in teeth.items():
+        if count < 1:
+            raise Infeasible(f"{name} = {count}: a wheel has at least 1 tooth")
+
+
+def _fail_if_not_inside(inner: str, fewer: int, outer: str, more: int) -> None:
+    if fewer >= more:
+        smaller = f"{inner} = {more - 1} or less, or " if more > 1 else ""
+        raise Infeasible(
+            f"{inner} = {fewer} inside {outer} = {more}: the inner wheel needs fewer teeth; "
+            f"take {smaller}{outer} = {fewer + 1} or more"
+        )
 
 
 def _turning(train: Train, member: str) -> int:
     """Column of a member's angular speed; the column before it is its velocity at x = 0."""
     return 2 * train.members.index(member) + 1
-
-
-def _unit(columns: int, index: int) -> Row:
-    return [Fraction(int(j == index)) for j in range(columns)]
 
 
 def _row(train: Train, pair: Pair) -> Row:
@@ -138,29 +195,3 @@ def _row(train: Train, pair: Pair) -> Row:
             row[column - 1] += sign
             row[column] += sign * pair.at
     return row
-
-
-def _null_space(rows: Iterable[Row], columns: int) -> list[Row]:
-    """Basis of the solutions of rows·x = 0, by Gauss–Jordan elimination without rounding."""
-    work = [list(row) for row in rows]
-    pivots: list[int] = []
-    for column in range(columns):
-        done = len(pivots)
-        found = next((i for i in range(done, len(work)) if work[i][column] != 0), None)
-        if found is None:
-            continue
-        work[done], work[found] = work[found], work[done]
-        scale = work[done][column]
-        work[done] = [value / scale for value in work[done]]
-        for i, row in enumerate(work):
-            if i != done and row[column] != 0:
-                factor = row[column]
-                work[i] = [a - factor * b for a, b in zip(row, work[done], strict=True)]
-        pivots.append(column)
-    basis = []
-    for free in (column for column in range(columns) if column not in pivots):
-        vector = _unit(columns, free)
-        for row, pivot in zip(work, pivots, strict=False):
-            vector[pivot] = -row[free]
-        basis.append(vector)
-    return basis

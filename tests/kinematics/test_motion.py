@@ -69,10 +69,13 @@ def test_two_discs_balance_each_other() -> None:
 
 
 @pytest.mark.exact
-def test_identical_discs_need_an_even_number_of_pins() -> None:
-    """Sources §3: two discs are alike if 2 | z_p: half a turn is then the flange lead, up to whole lobes."""
-    for pins, alike in ((20, True), (21, False)):
+def test_half_a_turn_is_the_flange_lead_only_with_an_even_number_of_pins() -> None:
+    """Up to whole lobes: so with 2 | z_p the second disc is the first one turned by half a turn (sources §3).
+
+    With odd numbers another angle may do, if the holes repeat under it: see `distinct_discs`.
+    """
+    for pins, half in ((20, True), (21, False)):
         cycloid = Cycloid(pins, pins - 1, 0.08, 0.004, 0.002)
         lobe = 2.0 * math.pi / cycloid.lobes
         shift = math.remainder(math.pi - flange_lead(cycloid, 1, 2), lobe)
-        assert (abs(shift) < 1e-12) is alike
+        assert (abs(shift) < 1e-12) is half

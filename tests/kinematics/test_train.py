@@ -1,12 +1,13 @@
 """Speeds of gear trains: the constraint matrix against inverted motion and velocities of points."""
 
+from collections.abc import Callable
 from fractions import Fraction
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from trochoid.kinematics.errors import TrochoidError
+from trochoid.kinematics.errors import Infeasible, TrochoidError
 from trochoid.kinematics.train import (
     FRAME,
     EqualTurning,
@@ -15,6 +16,8 @@ from trochoid.kinematics.train import (
     Rolling,
     Train,
     khv_train,
+    planetary_train,
+    rv_train,
     speeds,
 )
 
@@ -59,22 +62,6 @@ def test_khv_speed_by_the_velocity_of_the_pitch_point(lobes: int, difference: in
     assert speeds(khv_train(lobes + difference, lobes)).members["disc"] == -1 / pitch_radius
 
 
-def rv_train(sun: int, planet: int, lobes: int, pins: int) -> Train:
-    """2K-V drive: sun, planet on the crank, disc on the crank's eccentric, ring, carrier (sources §1)."""
-    axis, eccentricity = Fraction(sun + planet), Fraction(1)
-    pairs: tuple[Pair, ...] = (
-        Pivot(FRAME, "sun"),
-        Pivot(FRAME, "carrier"),
-        Pivot(FRAME, "ring"),
-        Pivot("carrier", "planet", axis),
-        Rolling("sun", "planet", Fraction(sun)),
-        Pivot("planet", "disc", axis + eccentricity),
-        EqualTurning("disc", "carrier"),
-        Rolling("disc", "ring", eccentricity * pins / (pins - lobes)),
-    )
-    return Train(("sun", "planet", "disc", "ring", "carrier"), pairs)
-
-
 @pytest.mark.published
 def test_the_general_train_gives_the_rv_ratios_of_the_source() -> None:
     """Sources §1, example 12/36/39/40: 121, −120, 121/120 with ring, carrier, sun fixed."""
@@ -97,17 +84,76 @@ def test_the_general_train_gives_the_rv_speeds_of_the_source() -> None:
 @pytest.mark.exact
 def test_a_simple_planetary_set() -> None:
     """1 + z_ring/z_sun with the ring fixed, −z_ring/z_sun with the carrier fixed."""
-    pairs: tuple[Pair, ...] = (
-        Pivot(FRAME, "sun"),
-        Pivot(FRAME, "carrier"),
-        Pivot(FRAME, "ring"),
-        Pivot("carrier", "planet", Fraction(50)),
-        Rolling("sun", "planet", Fraction(20)),
-        Rolling("planet", "ring", Fraction(80)),
-    )
-    train = Train(("sun", "planet", "ring", "carrier"), pairs)
+    train = planetary_train(20, 30, 80)
     assert speeds(train, "ring", "sun", "carrier").ratio == 5
     assert speeds(train, "carrier", "sun", "ring").ratio == -4
+
+
+@pytest.mark.independent
+@given(teeth=st.tuples(*[st.integers(5, 90)] * 3), difference=st.integers(1, 3), arm=st.fractions(2, 9))
+@settings(max_examples=40, deadline=None)
+def test_two_cranks_make_the_disc_turn_with_the_carrier(
+    teeth: tuple[int, int, int], difference: int, arm: Fraction
+) -> None:
+    """Revolutes and rolling pairs alone: with crankshafts on both sides of the sun no coupling need be assumed."""
+    sun, planet, lobes = teeth
+    pins = lobes + difference
+    first = arm * sun / (sun + planet)
+    pairs: tuple[Pair, ...] = (
+        *(Pivot(FRAME, member) for member in ("sun", "ring", "carrier")),
+        *(Pivot("carrier", name, side * arm) for name, side in (("planet", 1), ("opposite", -1))),
+        *(Rolling("sun", name, side * first) for name, side in (("planet", 1), ("opposite", -1))),
+        *(Pivot(name, "disc", side * arm + 1) for name, side in (("planet", 1), ("opposite", -1))),
+        Rolling("disc", "ring", Fraction(pins, difference)),
+    )
+    real = Train(("sun", "planet", "opposite", "disc", "ring", "carrier"), pairs)
+    for choice in (("ring", "sun", "carrier"), ("carrier", "sun", "ring"), ("sun", "planet", "disc")):
+        found = speeds(real, *choice)
+        assert found.members["planet"] == found.members["opposite"]
+        simple = speeds(rv_train(sun, planet, lobes, pins), *choice)
+        assert found.ratio == simple.ratio
+        assert all(found.members[member] == turn for member, turn in simple.members.items())
+
+
+@pytest.mark.exact
+@given(teeth=st.tuples(*[st.integers(9, 90)] * 4), rings=st.tuples(*[st.integers(1, 90)] * 2))
+def test_stepped_planets_and_two_rings(teeth: tuple[int, int, int, int], rings: tuple[int, int]) -> None:
+    """Wolfrom's 3K set: i = (1 + z_b/z_a)/(1 − z_b z_f/(z_g z_e)) from sun to second ring, first ring fixed."""
+    a, g, f, _ = teeth
+    b, e = g + rings[0], f + rings[1]
+    pairs: tuple[Pair, ...] = (
+        *(Pivot(FRAME, member) for member in ("sun", "ring", "second", "carrier")),
+        Pivot("carrier", "planet", Fraction(1)),
+        Rolling("sun", "planet", Fraction(a, a + g)),
+        Rolling("planet", "ring", Fraction(b, b - g)),
+        Rolling("planet", "second", Fraction(e, e - f)),
+    )
+    train = Train(("sun", "planet", "ring", "second", "carrier"), pairs)
+    assert speeds(train, "ring", "sun", "carrier").ratio == 1 + Fraction(b, a)
+    slip = 1 - Fraction(b * f, g * e)
+    if slip == 0:
+        with pytest.raises(TrochoidError, match="driven = second stands still"):
+            speeds(train, "ring", "sun", "second")
+    else:
+        assert speeds(train, "ring", "sun", "second").ratio == (1 + Fraction(b, a)) / slip
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: khv_train(20, 20), "take lobes = 19 or less, or pins = 21 or more"),
+        (lambda: rv_train(12, 36, 40, 39), "take lobes = 38 or less, or pins = 41 or more"),
+        (lambda: rv_train(0, 36, 39, 40), "sun = 0: a wheel has at least 1 tooth"),
+        (lambda: rv_train(12, 36, 1, 1), "needs fewer teeth; take pins = 2 or more"),
+        (lambda: planetary_train(20, 30, 30), "take planet = 29 or less, or ring = 31 or more"),
+        (lambda: planetary_train(20, -1, 30), "planet = -1: a wheel has at least 1 tooth"),
+    ],
+)
+def test_teeth_that_make_no_train_are_refused(make: Callable[[], Train], message: str) -> None:
+    """The message names the nearest numbers that do."""
+    with pytest.raises(Infeasible, match=message):
+        make()
 
 
 @pytest.mark.exact

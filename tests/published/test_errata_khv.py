@@ -11,7 +11,7 @@ import pytest
 from trochoid.drives.khv.design import Design, design
 from trochoid.drives.khv.series import solve_at
 from trochoid.fem.position import Contact
-from trochoid.kinematics.train import FRAME, EqualTurning, Pair, Pivot, Rolling, Train, speeds
+from trochoid.kinematics.train import rv_train, speeds
 from trochoid.kinematics.types import Array
 from trochoid.scene import load
 
@@ -40,20 +40,6 @@ def resultant(contact: Contact, family: str) -> Array:
     return np.asarray(touch.force @ touch.state.normal)
 
 
-def two_k_v(sun: int, planet: int, lobes: int, pins: int) -> Train:
-    """2K-V drive: sun, involute planet on the crank, disc, pins, carrier; lengths in units of half a module."""
-    axis, eccentricity = Fraction(sun + planet), Fraction(1)
-    pairs: tuple[Pair, ...] = (
-        *(Pivot(FRAME, member) for member in ("sun", "ring", "carrier")),
-        Pivot("carrier", "planet", axis),
-        Rolling("sun", "planet", Fraction(sun)),
-        Pivot("planet", "disc", axis + eccentricity),
-        EqualTurning("disc", "carrier"),
-        Rolling("disc", "ring", eccentricity * pins / (pins - lobes)),
-    )
-    return Train(("sun", "planet", "disc", "ring", "carrier"), pairs)
-
-
 @pytest.mark.published
 def test_ratio_of_the_2k_v_drive() -> None:
     """Printed: u = 1 + z2 z3/(z1 (z4 − z3)), 118 for 12/36/39/40; right: z4 in the numerator, 121.
@@ -63,7 +49,7 @@ def test_ratio_of_the_2k_v_drive() -> None:
     z1, z2, z3, z4 = 12, 36, 39, 40
     printed = 1 + Fraction(z2 * z3, z1 * (z4 - z3))
     right = 1 + Fraction(z2 * z4, z1 * (z4 - z3))
-    found = speeds(two_k_v(z1, z2, z3, z4), "ring", "sun", "carrier")
+    found = speeds(rv_train(z1, z2, z3, z4), "ring", "sun", "carrier")
     assert found.ratio == right == 121
     assert printed == 118
     crank = found.members["planet"] / found.members["carrier"]

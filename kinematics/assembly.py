@@ -1,0 +1,149 @@
+"""Whether equal planets go together and turn: assembly, neighbours, coaxiality of 2K-H and 2K-V trains.
+
+Each condition is a `Check` with its margin; one that fails says what binds and what near it would do.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from trochoid.kinematics.errors import Infeasible
+from trochoid.kinematics.involute_pair import Pair, mesh_at, needed_shift
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One condition: how far it is from its limit in `unit`, and why it fails; `fault` is empty if it holds."""
+
+    name: str
+    margin: float
+    unit: str
+    fault: str = ""
+
+    @property
+    def holds(self) -> bool:
+        """Whether there is nothing against it."""
+        return not self.fault
+
+
+def require(*checks: Check) -> None:
+    """Raise Infeasible with the sentence of every check that fails."""
+    faults = [check.fault for check in checks if check.fault]
+    if faults:
+        raise Infeasible("\n".join(faults))
+
+
+def planets_assemble(sun: int, ring: int, planets: int) -> Check:
+    """N equally spaced planets of a 2K-H set: N | z_sun + z_ring; `planet_places` are uneven ones that fit.
+
+    The carrier turned by 1/N brings the next planet to the first one's place; the sun has then turned
+    (z_sun + z_ring)/(N z_sun) times, which must be whole teeth.  Margin: −misfit, in sun pitches.
+    """
+    return _divides(
+        "assembly of the planets", planets, ("sun", sun), ("ring", ring), "equally spaced planets"
+    )
+
+
+def cranks_assemble(sun: int, planet: int, cranks: int) -> Check:
+    """N equal crankshafts of a 2K-V drive with their eccentrics parallel: N | z_sun + z_planet.
+
+    Equal means planets that stand alike to their eccentrics; else each needs its own place on its spline.
+    Margin: −misfit, in pitches.
+    """
+    return _divides("assembly of the cranks", cranks, ("sun", sun), ("planet", planet), "equal crankshafts")
+
+
+def planet_places(sun: int, ring: int, planets: int) -> tuple[Fraction, ...]:
+    """Places (turns of the carrier) nearest to equal spacing that can be filled: whole 1/(z_sun + z_ring)."""
+    steps = sun + ring
+    return tuple(Fraction(round(Fraction(k * steps, planets)), steps) for k in range(planets))
+
+
+def neighbors_clear(
+    what: str, count: int, circle_radius: float, radius: float, clearance: float = 0.0
+) -> Check:
+    """Equal bodies of `radius` (tips of planets, eccentric bearings) side by side on a circle; lengths in m.
+
+    2 ρ sin(π/N) > 2 r + clearance.  Margin in m.
+    """
+    name = f"neighbouring {what}"
+    _fail_if_none(what, count)
+    margin = (
+        math.inf if count == 1 else 2.0 * (circle_radius * math.sin(math.pi / count) - radius) - clearance
+    )
+    if margin > 0.0:
+        return Check(name, margin, "m")
+    share = (radius + 0.5 * clearance) / circle_radius
+    most = max(1, math.ceil(math.pi / math.asin(share)) - 1) if share < 1.0 else 1
+    limit = circle_radius * math.sin(math.pi / count) - 0.5 * clearance
+    smaller = f", or a radius below {_mm(limit)}" if limit > 0.0 else ""
+    wider = (radius + 0.5 * clearance) / math.sin(math.pi / count)
+    return Check(
+        name,
+        margin,
+        "m",
+        f"{count} {what} of radius {_mm(radius)} on a circle of radius {_mm(circle_radius)} collide: they overlap "
+        f"by {_mm(-margin)}; take at most {most}{smaller}, or a circle radius above {_mm(wider)}",
+    )
+
+
+def coaxial(mesh: Pair, center_distance: float, tolerance: float = 1e-6) -> Check:
+    """Gears that mesh without play at the carrier's centre distance (m), within `tolerance` (m).
+
+    Of a 2K-H set: the ring's mesh at the sun's distance; of a 2K-V: sun and planet at the cranks' radius.
+    Margin: tolerance − |Δa|, m.
+    """
+    name, found = "coaxiality", float(mesh.center_distance)
+    margin = tolerance - abs(found - center_distance)
+    if margin >= 0.0:
+        return Check(name, margin, "m")
+    one, two = mesh.first, mesh.second
+    try:
+        need = float(needed_shift(mesh_at(one, two, center_distance)) - mesh.side * one.shift)
+        advice = f"the nearest shift of the {'ring' if two.internal else 'planet'} is {need:.6g}, or take"
+    except Infeasible:
+        advice = "no shift brings them there; take"
+    return Check(
+        name,
+        margin,
+        "m",
+        f"{one.teeth} and {two.teeth} teeth stand {_mm(found)} apart without play, and the carrier holds them at "
+        f"{_mm(center_distance)}: not coaxial; {advice} a centre distance of {_mm(found)}",
+    )
+
+
+def _divides(name: str, count: int, one: tuple[str, int], two: tuple[str, int], what: str) -> Check:
+    _fail_if_none(what, count)
+    total = one[1] + two[1]
+    rest = total % count
+    if rest == 0:
+        return Check(name, 0.0, "pitch")
+    near = _nearest(count, lambda n: total % n == 0)
+    teeth = two[1] + (-rest if 2 * rest <= count else count - rest)
+    teeth += count if teeth < 1 else 0
+    return Check(
+        name,
+        -min(rest, count - rest) / count,
+        "pitch",
+        f"{count} {what} cannot be assembled: {one[0]} + {two[0]} = {total} teeth is no multiple of {count}; "
+        f"take {near} {what.split()[-1]}, or a {two[0]} of {teeth} teeth",
+    )
+
+
+def _nearest(value: int, fits: Callable[[int], bool]) -> str:
+    """Nearest numbers below and above that fit; 1 always does, and above it may be none."""
+    below = next(n for n in range(value - 1, 0, -1) if fits(n))
+    above = next((n for n in range(value + 1, 3 * value + 1) if fits(n)), None)
+    return str(below) if above is None else f"{below} or {above}"
+
+
+def _fail_if_none(what: str, count: int) -> None:
+    if count < 1:
+        raise Infeasible(f"{count} {what.split()[-1]}: at least 1 is needed")
+
+
+def _mm(length: float) -> str:
+    return f"{1e3 * length:.6g} mm"
