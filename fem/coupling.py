@@ -44,10 +44,36 @@ def coupling(bodies: Sequence[ElasticBody], contacts: Sequence[Seated]) -> Array
     return total
 
 
+def rubbing_coupling(bodies: Sequence[ElasticBody], contacts: Sequence[Seated]) -> Array:
+    """Return the same between normal and tangential forces (n, 2C, 2C), all normal ones first; signs as those of
+    `Compliance.coupled`. Round sides yield as much along their surface as across it.
+
+    Raises TrochoidError when a body was not pressed tangentially.
+    """
+    counts = np.cumsum([0] + [c.state.gap.shape[1] for c in contacts])
+    size = int(counts[-1])
+    total = np.zeros((len(contacts[0].state.gap), 2 * size, 2 * size))
+    total[:, np.arange(2 * size), np.arange(2 * size)] = np.tile(
+        np.concatenate([c.round_side for c in contacts]), 2
+    )
+    for number, body in enumerate(bodies):
+        on = [i for i, c in enumerate(contacts) if c.seat is not None and c.seat.body == number]
+        if on:
+            index = np.concatenate([np.arange(counts[i], counts[i + 1]) for i in on])
+            both = np.concatenate([index, size + index])
+            weights, points = _places([contacts[i] for i in on])
+            total[:, both[:, None], both] += body.compliance.coupled(weights, points) / body.width
+    return total
+
+
 def through(body: ElasticBody, contacts: Sequence[Seated]) -> Array:
     """Return the compliance (n, C, C) in m/N of contacts that press one body."""
+    weights, points = _places(contacts)
+    return body.compliance.between(weights, points) / body.width
+
+
+def _places(contacts: Sequence[Seated]) -> tuple[Weights, Array]:
     weights = [
         c.seat.weights(c.state.place) for c in contacts if c.seat is not None and c.state.place is not None
     ]
-    points = np.concatenate([c.state.point for c in contacts], axis=1)
-    return body.compliance.between(Weights.joined(weights), points) / body.width
+    return Weights.joined(weights), np.concatenate([c.state.point for c in contacts], axis=1)

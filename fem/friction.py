@@ -59,8 +59,8 @@ def step(system: System, before: Rubbed | None = None, size: float = 0.0) -> Rub
     """Go to the loads and gaps of `system` from where the last step ended (None: unloaded, nothing slipped yet).
 
     `size` in N is the largest force of the path so far, if `before` does not hold it: conditions are met relative to
-    it. Without friction this is `complementarity.solve`. Raises NotConverged where no state is found that meets Coulomb's
-    conditions to 1e-9.
+    it. Without friction this is `complementarity.solve`. Raises NotConverged where no state is found that meets
+    Coulomb's conditions to 1e-9.
     """
     if not any(x.friction > 0 for x in system.contacts):
         return _frictionless(system, before)

@@ -12,6 +12,7 @@ from trochoid.kinematics.errors import Infeasible
 
 _COARSER = 1.75  # facets of bore and holes against those of the flank
 _FINEST = 0.125  # least share of that length which a thin wall may ask for
+_FIRST, _FEWEST = 4, 12  # facets per lobe from which levels double; facets of a circle
 
 
 def disc_outline(
@@ -26,7 +27,9 @@ def disc_outline(
     """Outline with the loops "flank", "bore", "hole0", … in the disc's frame; lengths in m, angle in rad.
 
     Flank facets follow arc length and curvature (`bending_breaks`), alike on all lobes; those of bore and
-    holes are up to 1.75 times their mean, and no longer than the wall beside them (down to an eighth).
+    holes are up to 1.75 times their mean, and with 8 facets per lobe no longer than the wall beside them (down
+    to an eighth). Twice the facets per lobe halve every facet, so that the error of a coarse mesh can be told
+    from that of a fine one.
     Raises Infeasible.
     """
     sizes = (bore_radius, hole_count, hole_circle_radius, hole_radius, hole_angle0)
@@ -34,8 +37,10 @@ def disc_outline(
     if facets_per_lobe < 1:
         raise Infeasible(f"facets per lobe = {facets_per_lobe}; at least 1 is needed, 12 is usual")
     flank = Loop("flank", profile, breaks=bending_breaks(profile, facets_per_lobe, profile.lobes))
-    length = _COARSER * ArcLength(profile).total / (facets_per_lobe * profile.lobes)
-    bore_facets, hole_facets = _facets(length, walls(profile, *sizes), bore_radius, hole_radius)
+    first = _first_level(facets_per_lobe)
+    length = _COARSER * ArcLength(profile).total / (first * profile.lobes)
+    counts = _facets(length, walls(profile, *sizes), bore_radius, hole_radius)
+    bore_facets, hole_facets = (max(_FEWEST, count * facets_per_lobe // first) for count in counts)
     holes = [Loop("bore", Circle((0.0, 0.0), bore_radius, hole=True), bore_facets, hole_angle0)]
     for j in range(hole_count):
         angle = hole_angle0 + 2.0 * math.pi * j / hole_count
@@ -44,12 +49,19 @@ def disc_outline(
     return Outline(flank, tuple(holes))
 
 
+def _first_level(facets_per_lobe: int) -> int:
+    """Level from which this one follows by doubling."""
+    while facets_per_lobe % 2 == 0 and facets_per_lobe >= 2 * _FIRST:
+        facets_per_lobe //= 2
+    return facets_per_lobe
+
+
 def _facets(length: float, wall: Walls, bore_radius: float, hole_radius: float) -> tuple[int, int]:
-    """Numbers of facets on the bore and on a hole, at least 12 and multiples of 4."""
+    """Numbers of facets on the bore (a multiple of 4) and on a hole (even) on the first level."""
     beside_bore = min(wall.hole_to_bore, wall.bore_to_flank)
     beside_hole = min(wall.hole_to_flank, wall.hole_to_bore, wall.hole_to_hole)
     counts = []
-    for radius, beside in ((bore_radius, beside_bore), (hole_radius, beside_hole)):
-        facet = max(min(length, beside), _FINEST * length)
-        counts.append(4 * max(3, math.ceil(0.5 * math.pi * radius / facet)))
+    for radius, beside, whole in ((bore_radius, beside_bore, 4), (hole_radius, beside_hole, 2)):
+        facet = max(min(length, 2.0 * beside), _FINEST * length)
+        counts.append(whole * math.ceil(2.0 * math.pi * radius / (whole * facet)))
     return counts[0], counts[1]

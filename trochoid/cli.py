@@ -20,6 +20,12 @@ if TYPE_CHECKING:
 
 FAILED, WRONG = 1, 2
 
+_OUT = click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Where results go.  [default: out/NAME of the scene]",
+)
 _SET = click.option(
     "--set",
     "overrides",
@@ -77,6 +83,7 @@ def commands() -> None:
     trochoid new khv > scene.toml    start from a commented scene
     trochoid check scene.toml        see what a run would do
     trochoid run scene.toml          compute: tables, report.html, VTK files
+    trochoid accuracy scene.toml     measure error against seconds, model by model
     """
 
 
@@ -106,12 +113,7 @@ def check(scene: str, overrides: tuple[str, ...], ask: str | None) -> None:
 
 @commands.command()
 @click.argument("scene")
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Where results go.  [default: out/NAME of the scene]",
-)
+@_OUT
 @_SET
 @_ASK
 @click.option(
@@ -128,7 +130,7 @@ def run(scene: str, out: Path | None, overrides: tuple[str, ...], ask: str | Non
     trochoid run scene.toml --ask ratio,mass --json
     """
     loaded = _load(scene, overrides, ask)
-    folder = None if as_json and out is None else out or Path("out") / (Path(scene).stem or "scene")
+    folder = _folder(scene, out, as_json)
     from trochoid import results
     from trochoid.clock import Clock
     from trochoid.run import Run
@@ -145,6 +147,53 @@ def run(scene: str, out: Path | None, overrides: tuple[str, ...], ask: str | Non
 
 
 @commands.command()
+@click.argument("scene")
+@_OUT
+@_SET
+@_ASK
+@click.option(
+    "--budget",
+    type=click.FloatRange(min=0, min_open=True),
+    default=60.0,
+    show_default=True,
+    metavar="SECONDS",
+    help="Stop refining the mesh when the next level would take longer.",
+)
+@click.option("--resolved", is_flag=True, help="Check one position by fully resolved finite elements (slow).")
+@click.option(
+    "--json", "as_json", is_flag=True, help="Print accuracy.json instead; write files only with --out."
+)
+def accuracy(
+    scene: str,
+    out: Path | None,
+    overrides: tuple[str, ...],
+    ask: str | None,
+    budget: float,
+    resolved: bool,
+    as_json: bool,
+) -> None:
+    """Measure what accuracy costs in SCENE: error against seconds, model by model, mesh by mesh.
+
+    \b
+    trochoid accuracy scene.toml --ask torsional_stiffness,contact_force_max
+    trochoid accuracy scene.toml --budget 300 --resolved
+    """
+    loaded = _load(scene, overrides, ask)
+    folder = _folder(scene, out, as_json)
+    from trochoid import accuracy, results
+
+    if folder is not None:
+        results.prepare(folder)
+    with console.progress() as announce:
+        found = accuracy.study(loaded, budget, announce, oracle=resolved)
+        files = () if folder is None else accuracy.write(found, folder)
+    if as_json:
+        click.echo(accuracy.to_json(found), nl=False)
+    else:
+        accuracy.show(found, files)
+
+
+@commands.command()
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
 @click.option(
     "--screenshot", type=click.Path(path_type=Path), metavar="FILE", help="Save a picture and open no window."
@@ -154,6 +203,11 @@ def view(folder: Path, screenshot: Path | None) -> None:
     from trochoid.view import view as show
 
     show(folder, screenshot)
+
+
+def _folder(scene: str, out: Path | None, as_json: bool) -> Path | None:
+    """Return where files go; None for nowhere."""
+    return None if as_json and out is None else out or Path("out") / (Path(scene).stem or "scene")
 
 
 def _load(path: str, overrides: Sequence[str], ask: str | None) -> Scene:

@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, cast
 
 from trochoid.clock import Clock
+from trochoid.ladder import Ladder
 from trochoid.plan import Plan
 from trochoid.scene import Scene
 
@@ -17,12 +18,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """What a drive's folder offers: its stages of a scene, its quantities and outcome made from them, and its plan."""
+    """What a drive's folder offers: its stages of a scene, its quantities and outcome made from them, its plan, and
+    the ladder of its models.
+    """
 
     stages: Callable[[Scene, Clock], Any]
     quantities: Mapping[str, Callable[[Any], Quantity]]
     outcome: Callable[[Any, Mapping[str, Quantity]], Outcome]
     plan: Callable[[Scene], Plan]
+    ladder: Callable[[Scene, Clock], Ladder]
 
 
 def drive_of(kind: str) -> Drive:

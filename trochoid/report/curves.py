@@ -99,5 +99,5 @@ def entry_names(variable: xarray.DataArray, dim: str) -> list[str]:
 def _x_dim(variable: xarray.DataArray) -> str:
     """Return the dimension along which to plot: the angle or the frequency, else the longest."""
     dims = [str(dim) for dim in variable.dims]
-    axes = [dim for dim in dims if dim in ("input_angle", "frequency")]
+    axes = [dim for dim in dims if dim in ("input_angle", "frequency", "load_torque")]
     return axes[0] if axes else max(dims, key=lambda dim: variable.sizes[dim])

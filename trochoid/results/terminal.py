@@ -22,7 +22,7 @@ def show(outcome: Outcome, files: Sequence[Path] = (), stream: IO[str] | None = 
         _show_rich(outcome, files, out)
     else:
         lines = "\n".join(_plain_lines(outcome, files)) + "\n"
-        out.write(lines if _speaks_unicode(out) else text.plain(lines))
+        out.write(lines if text.speaks_unicode(out) else text.plain(lines))
 
 
 def rows(quantities: Parts, depth: int = 0) -> Iterator[Row]:
@@ -86,10 +86,6 @@ def _seconds(outcome: Outcome) -> str:
     total = sum(stage.seconds for stage in outcome.stages)
     skipped = f"; not needed: {', '.join(outcome.not_needed)}" if outcome.not_needed else ""
     return f"{total:.2f} s{f' ({parts})' if parts else ''}{skipped}"
-
-
-def _speaks_unicode(stream: IO[str]) -> bool:
-    return (getattr(stream, "encoding", None) or "utf-8").lower().replace("-", "").startswith("utf")
 
 
 def _show_rich(outcome: Outcome, files: Sequence[Path], stream: IO[str]) -> None:

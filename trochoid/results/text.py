@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from typing import IO
 
 from trochoid.results.outcome import Quantity
 
@@ -95,6 +96,11 @@ def plain(text: str) -> str:
     for sign, letters in _PLAIN.items():
         raised = raised.replace(sign, letters)
     return raised.encode("ascii", "replace").decode("ascii")
+
+
+def speaks_unicode(stream: IO[str]) -> bool:
+    """Return whether a stream can show more than ASCII."""
+    return (getattr(stream, "encoding", None) or "utf-8").lower().replace("-", "").startswith("utf")
 
 
 def _lowered(digits: str) -> str:

@@ -11,7 +11,7 @@ from trochoid.scene.drive_khv import (
     OutputPins,
     Ring,
 )
-from trochoid.scene.effects import EFFECTS, Effect
+from trochoid.scene.effects import EFFECTS, Effect, Friction
 from trochoid.scene.load import load, read
 from trochoid.scene.materials import Material
 from trochoid.scene.model import Scene
@@ -29,6 +29,7 @@ __all__ = [
     "Casing",
     "EccentricBearing",
     "Effect",
+    "Friction",
     "InputShaft",
     "KhvDrive",
     "Material",

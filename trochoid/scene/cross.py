@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any, TypeAlias
 
 from trochoid.faults import Key, listed, meant, nearest, quoted, shown
+from trochoid.scene import units
 from trochoid.scene.effects import EFFECTS
 from trochoid.scene.materials import PREDEFINED
-from trochoid.scene.needs import ELASTIC_MODELS, KINDS, NEEDS, NOT_WITH_SPRINGS, QUANTITIES
+from trochoid.scene.needs import ELASTIC_MODELS, KINDS, NEEDS, NOT_WITH_SPRINGS, QUANTITIES, UNDER_TORQUE
 
 Found: TypeAlias = tuple[Key, str]
 
@@ -139,6 +141,14 @@ def _quantity(raw: Mapping[str, Any], kind: str, name: str, effects: set[str]) -
         yield f"{quoted(name)} needs {_absent(lacking)}"
     if name in NOT_WITH_SPRINGS and _table(raw, "accuracy").get("model") == "springs":
         yield f'{quoted(name)} is not in accuracy.model = "springs" (rigid discs); take "level0" or "strips"'
+    if name in UNDER_TORQUE and _no_torque(_table(raw, "operation").get("output_torque")):
+        yield f"{quoted(name)} needs operation.output_torque above 0: it is measured at shares of that torque"
+
+
+def _no_torque(given: object) -> bool:
+    with suppress(ValueError):
+        return units.read(given, units.TORQUE) == 0.0
+    return False
 
 
 def _absent(effects: Sequence[str]) -> str:

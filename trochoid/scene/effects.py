@@ -6,7 +6,7 @@ from typing import Annotated, Literal, TypeAlias, get_args
 
 from pydantic import Field
 
-from trochoid.scene.fields import Table
+from trochoid.scene.fields import Coefficient, Table
 
 
 class ElasticContact(Table):
@@ -45,8 +45,20 @@ class CasingOnMounts(Table):
     type: Literal["casing_on_mounts"]
 
 
+class Friction(Table):
+    """Coulomb friction where flanks slide on ring pins and holes on output rollers; rolling bearings have none.
+
+    Each coefficient is the tangential over the normal force at the outside of pin or roller, where it stands still
+    as well as where it turns: μ for a pin that is held, μ·r_bore/r_outside for a sleeve that slides on its pin.
+    """
+
+    type: Literal["friction"]
+    ring_pins: Coefficient = 0.05
+    output_pins: Coefficient = 0.05
+
+
 AnyEffect: TypeAlias = (
-    ElasticContact | PinCompliance | Clearance | BearingCompliance | InertiaForces | CasingOnMounts
+    ElasticContact | PinCompliance | Clearance | BearingCompliance | InertiaForces | CasingOnMounts | Friction
 )
 Effect: TypeAlias = Annotated[AnyEffect, Field(discriminator="type")]
 EFFECTS: tuple[str, ...] = tuple(

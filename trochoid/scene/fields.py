@@ -28,12 +28,13 @@ class Table(BaseModel):
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """A quantity of a family; limits in the default unit, `above`, `below` exclusive, `least` inclusive."""
+    """A quantity of a family; limits in the default unit, `above`, `below` exclusive, `least`, `most` inclusive."""
 
     family: Family
     above: float | None = None
     least: float | None = None
     below: float | None = None
+    most: float | None = None
 
     @property
     def allowed(self) -> str:
@@ -49,6 +50,8 @@ class Measure:
             said.append(f"of {self.least:g} or more")
         if self.below is not None:
             said.append(f"less than {self.below:g}")
+        if self.most is not None:
+            said.append(f"of at most {self.most:g}")
         return said
 
     def read(self, value: object) -> float:
@@ -62,6 +65,7 @@ class Measure:
             (self.above is not None and not number > self.above)
             or (self.least is not None and not number >= self.least)
             or (self.below is not None and not number < self.below)
+            or (self.most is not None and not number <= self.most)
         ):
             unit = f" {self.family.unit}" if self.family.unit and not isinstance(value, str) else ""
             raise fault(f"given {shown(value)}{unit}; need {self.family.name} {' and '.join(self._limits())}")
@@ -122,5 +126,6 @@ Stiffness = Annotated[float, Measure(units.STIFFNESS, above=0.0)]
 AnyStiffness = Annotated[float, Measure(units.STIFFNESS, least=0.0)]
 Damping = Annotated[float, Measure(units.DAMPING, least=0.0)]
 Fraction = Annotated[float, Measure(units.NUMBER, above=0.0, below=1.0)]
+Coefficient = Annotated[float, Measure(units.NUMBER, least=0.0, most=1.0)]
 Boolean = Annotated[bool, Flag()]
 Position = tuple[Length, Length, Length]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from trochoid.scene.ask import Accuracy, Ask
 from trochoid.scene.casing import Casing
 from trochoid.scene.drive_khv import KhvDrive
-from trochoid.scene.effects import Effect
+from trochoid.scene.effects import Effect, Friction
 from trochoid.scene.fields import Table
 from trochoid.scene.materials import Material
 from trochoid.scene.operation import Operation
@@ -28,3 +28,8 @@ class Scene(Table):
     def has(self, effect: str) -> bool:
         """Return whether the effect of this type is in the equations."""
         return any(listed.type == effect for listed in self.effects)
+
+    @property
+    def friction(self) -> Friction | None:
+        """The effect "friction", None when the scene does not list it."""
+        return next((listed for listed in self.effects if isinstance(listed, Friction)), None)

@@ -17,7 +17,10 @@ QUANTITIES = (
     "mesh_stiffness",
     "torsional_stiffness",
     "lost_motion",
+    "backlash",
+    "torsion_curve",
     "efficiency",
+    "power_loss",
     "bearing_loads",
     "bearing_stiffness",
     "reactions",
@@ -43,6 +46,11 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "stress_max": ("elastic_contact",),
         "transmission_error": (),
         "torsional_stiffness": (),
+        "lost_motion": (),
+        "backlash": (),
+        "torsion_curve": (),
+        "efficiency": ("friction",),
+        "power_loss": ("friction",),
         "bearing_loads": (),
         "bearing_stiffness": ("bearing_compliance",),
         "reactions": ("inertia",),
@@ -55,4 +63,11 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
 
 KINDS = tuple(NEEDS)
 ELASTIC_MODELS = ("level0", "strips")
+UNDER_TORQUE = (
+    "lost_motion",
+    "backlash",
+    "torsion_curve",
+    "efficiency",
+    "power_loss",
+)  # operation.output_torque is their measure: the rated torque
 NOT_WITH_SPRINGS = ("stress_max",)  # rigid discs on springs have no stress field

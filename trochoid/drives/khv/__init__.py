@@ -2,22 +2,34 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from trochoid.clock import Clock
 from trochoid.drives import Drive
 from trochoid.drives.khv.answers import QUANTITIES
 from trochoid.drives.khv.outcome import outcome
 from trochoid.drives.khv.plan import plan
-from trochoid.drives.khv.stages import COARSEST, Stages, rung_of
+from trochoid.drives.khv.stages import COARSEST, Stages, named_rung
+from trochoid.ladder import Ladder
 from trochoid.plan import Plan
 from trochoid.scene import Scene
 
 
 def _plan(scene: Scene) -> Plan:
     given = scene.accuracy.facets_per_lobe
-    made = plan(scene, rung_of(scene), COARSEST if given is None else max(3, given // 2))
+    rung = named_rung(scene)
+    made = plan(scene, rung or "level0", COARSEST if given is None else max(3, given // 2))
+    if rung is None:
+        made = replace(made, model="level0, or strips where that is not within the tolerance")
     if any(stage.needed and stage.name == "geometry" for stage in made.stages):
         Stages(scene, Clock()).feasible  # noqa: B018 - raises Infeasible with every reason
     return made
 
 
-DRIVE = Drive(Stages, QUANTITIES, outcome, _plan)
+def _ladder(scene: Scene, clock: Clock) -> Ladder:
+    from trochoid.drives.khv.ladder import ladder
+
+    return ladder(scene, clock)
+
+
+DRIVE = Drive(Stages, QUANTITIES, outcome, _plan, _ladder)

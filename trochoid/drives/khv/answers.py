@@ -25,6 +25,10 @@ _MODULE_OF = {
         "answers_contact",
     ),
     **dict.fromkeys(
+        ("lost_motion", "backlash", "torsion_curve", "efficiency", "power_loss"),
+        "answers_path",
+    ),
+    **dict.fromkeys(
         ("bearing_loads", "bearing_stiffness", "reactions", "vibration_velocity", "vibration_zone"),
         "answers_dynamics",
     ),

@@ -11,10 +11,12 @@ import numpy as np
 from trochoid.drives.khv.numbers import ARCMIN, number, over_turn
 from trochoid.drives.khv.stages import Stages
 from trochoid.kinematics.types import Array
-from trochoid.results.outcome import Quantity
+from trochoid.results.outcome import Parts, Quantity
 
 if TYPE_CHECKING:
+    from trochoid.drives.khv.field import DiscState
     from trochoid.drives.khv.series import Series, Touches
+    from trochoid.fem.stress_peak import Peak
 
 
 def load_sharing(s: Stages) -> Quantity:
@@ -75,11 +77,37 @@ def _rollers(series: Series, get: Callable[[Touches], Array]) -> float:
 
 
 def stress_max(s: Stages) -> Quantity:
-    """Largest von Mises stress of the discs at the stress position; it lies below a contact as a rule."""
-    largest = s.field.map(lambda discs: 1e-6 * max(disc.field.largest for disc in discs))
+    """Largest von Mises and shear stress of the discs at the stress position; below a contact as a rule."""
     angle = float(np.degrees(s.field.fine[0].angle))
-    note = f"at input angle {angle:g}°: Hertz's field of each contact in closed form, the rest by finite elements"
-    return replace(number(s, largest, "MPa"), note=note)
+    near = "the strips" if s.rung == "strips" else "Hertz's pressure"
+    note = (
+        f"at input angle {angle:g}°: below the contacts from {near} in closed form, the rest by finite elements; "
+        "place in the fixed frame"
+    )
+    return Quantity(
+        parts={
+            "von_mises": _peak(s, lambda disc: disc.field.von_mises_peak),
+            "max_shear": _peak(s, lambda disc: disc.field.max_shear_peak),
+        },
+        note=note,
+    )
+
+
+def _peak(s: Stages, get: Callable[[DiscState], Peak]) -> Parts:
+    """Return the largest stress among the discs, how deep it lies, and where."""
+    from trochoid.drives.khv.picture import ring_angle, turned
+
+    peak = s.field.map(lambda discs: max((get(disc) for disc in discs), key=lambda peak: peak.value))
+    i = next(k for k, disc in enumerate(s.field.fine) if get(disc) is peak.fine)
+    disc = s.field.fine[i]
+    x, y = 1e3 * turned(disc.points[peak.fine.node, :2], float(ring_angle(s.design, np.array(disc.angle))))
+    return {
+        "stress": number(s, peak.map(lambda p: 1e-6 * p.value), "MPa"),
+        "depth": number(s, peak.map(lambda p: 1e3 * p.depth), "mm"),
+        "disc": Quantity(float(1 + i)),
+        "x": Quantity(float(x), "mm"),
+        "y": Quantity(float(y), "mm"),
+    }
 
 
 def transmission_error(s: Stages) -> Quantity:

@@ -37,10 +37,14 @@ def meshes(design: Design, facets_per_lobe: int) -> tuple[Mesh, ...]:
 
 
 def build_level(design: Design, facets_per_lobe: int, made: tuple[Mesh, ...]) -> Level:
-    """Factor the discs and press them at every station."""
+    """Factor the discs and press them at every station, along the surface too where the scene has friction."""
+    tangential = design.scene.friction is not None
     bodies = tuple(build_body(mesh, plane(design)) for mesh in made)
     elastic = tuple(
-        ElasticBody(_resolved(press(body, outline.loops), design, facets_per_lobe), design.drive.face_width)
+        ElasticBody(
+            _resolved(press(body, outline.loops, tangential), design, facets_per_lobe),
+            design.drive.face_width,
+        )
         for body, outline in zip(bodies, outlines(design, facets_per_lobe), strict=True)
     )
     return Level(facets_per_lobe, made, bodies, elastic)

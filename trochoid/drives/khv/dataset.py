@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from trochoid.drives.khv.series import Series, Touches
 
+LOST = 0.03  # share of the torque where the lower line begins
 MANY = 12  # traces in one row of a figure beyond which a map is clearer
 PER_LOBE = 40  # points of the profile
 BEARINGS = ("input shaft A", "input shaft B", "output flange A", "output flange B")
@@ -44,6 +45,18 @@ def dataset(stages: Stages, wanted: Collection[str]) -> xarray.Dataset | None:
         points = tuple(point.name for point in found.points)
         coordinates["frequency"] = entry(("frequency",), found.frequencies, "Hz", "frequency")
         coordinates["point"] = named("point", points, "point on the casing")
+    if "torsion" in wanted:
+        entries |= _torsion(stages)
+        path = stages.load_path.fine
+        torque = stages.scene.operation.output_torque
+        coordinates["load_torque"] = entry(("load_torque",), torque * path.share, "N*m", "load torque")
+        places = tuple(f"held at {x:.4g}°" for x in np.degrees(path.angle))
+        coordinates["held_angle"] = named("held_angle", places, "input angle held")
+    if "losses" in wanted:
+        entries |= _losses(stages)
+        coordinates["running_angle"] = entry(
+            ("running_angle",), stages.losses.fine.angle, "rad", "input angle"
+        )
     used = {dim for dims, *_ in entries.values() for dim in dims}
     return xarray.Dataset(entries, {name: place for name, place in coordinates.items() if name in used})
 
@@ -155,6 +168,48 @@ def _output(stages: Stages) -> Entries:
         "torsional_stiffness": entry((ANGLE,), stiffness, "N*m/rad", "torsional stiffness", show.STIFFNESS),
         "transmission_error": error,
         "output_lag": entry((ANGLE,), lag, "rad", said),
+    }
+
+
+def _torsion(stages: Stages) -> Entries:
+    """Return the torque-twist path, the middle of its loop and the two lines through it, mean of the held angles."""
+    from trochoid.drives.khv.torsion import HALF, middle, torsion
+
+    path, torque = stages.load_path.fine, stages.scene.operation.output_torque
+    share = path.share[path.falling]
+    center = middle(path)
+    once, dims = np.full(len(path.share), np.nan), ("load_torque",)
+    lines = []
+    for low, high in ((LOST, HALF), (HALF, 1.0)):
+        line, inside = once.copy(), (np.abs(share) >= low - 1e-9) & (np.abs(share) <= high + 1e-9)
+        ends = [float(np.interp(x, share[::-1], center[::-1])) for x in (-high, -low, low, high)]
+        line[path.falling] = np.where(inside, np.interp(share, (-high, -low, low, high), ends), np.nan)
+        lines.append(line)
+    read = torsion(path, torque)
+    lost, left = (np.degrees(x.mean()) * 60 for x in (read.lost_motion, read.backlash))
+    caption = (
+        f"Angle of the output with the input held, over the load torque: up, down and up again. Lost motion "
+        f"{lost:.4g} arcmin, backlash {left:.4g} arcmin. The lines give the stiffness."
+    )
+    return {
+        "torsion_twist": entry(
+            ("held_angle", *dims), path.twist, "rad", "twist", show.TORSION, caption=caption
+        ),
+        "torsion_line_lower": entry(dims, lines[0], "rad", "twist, line 3 to 50 %", show.TORSION),
+        "torsion_line_upper": entry(dims, lines[1], "rad", "twist, line 50 to 100 %", show.TORSION),
+        "torsion_friction_work": entry(("held_angle", *dims), path.lost, "J", "work that friction took"),
+    }
+
+
+def _losses(stages: Stages) -> Entries:
+    """Return what the running drive loses, per radian of the input."""
+    found, share = stages.losses.fine, abs(stages.design.mesh_speed)
+    dims = ("running_angle", "disc")
+    return {
+        "ring_pin_loss": entry(dims, share * found.ring.sum(axis=2), "N*m", "loss, ring pins", show.LOSSES),
+        "output_pin_loss": entry(
+            dims, share * found.output.sum(axis=2), "N*m", "loss, output pins", show.LOSSES
+        ),
     }
 
 

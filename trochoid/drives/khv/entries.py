@@ -11,7 +11,9 @@ ANGLE = "input_angle"
 SHARING, OUTPUT, ECCENTRIC = "Load sharing of the ring pins", "Output pins", "Eccentric bearings"
 PRESSURE, STIFFNESS, ERROR = "Contact pressure", "Torsional stiffness", "Transmission error"
 REACTIONS, CHANGE, VELOCITY = "Bearing reactions", "Elastic less rigid reactions", "Vibration velocity"
+TORSION, LOSSES = "Torsion curve", "Friction losses"
 CAPTIONS = {
+    LOSSES: "Work lost per radian of the input on each disc, as a torque at the input.",
     SHARING: "Force of every ring pin on each disc, and each disc's share of the torque.",
     OUTPUT: "Force between each output pin's roller and its hole.",
     ECCENTRIC: "Force of each disc on its eccentric, and the part of it that each roller carries.",

@@ -31,12 +31,17 @@ ABSENT_EFFECTS = {
         "without a response to it."
     ),
     "casing_on_mounts": "The casing stands still: there is no vibration velocity and no zone to judge it by.",
+    "friction": (
+        "Contact forces are normal to the surfaces: no losses, no efficiency, no hysteresis; friction turns real "
+        "contact forces by a few degrees, and with them the bearing loads."
+    ),
 }
 
 NEVER_SIMULATED = {
-    "friction": (
-        "Contact forces are normal to the surfaces: no losses, no efficiency, no heat; friction turns real "
-        "contact forces by a few degrees, and with them the bearing loads."
+    "friction of bearings, seals and oil": (
+        "Rolling bearings, seals and the oil that is churned take nothing: a real drive loses more, most of all at "
+        "low torque. Where friction is listed, it is in the torsion curve, the efficiency and what belongs to them; "
+        "all other answers are those of normal forces."
     ),
     "manufacturing errors": (
         "Apart from the modification and the clearances of the scene, pins, lobes and holes are alike and in "

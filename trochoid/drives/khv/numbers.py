@@ -27,7 +27,7 @@ def exact(values: Mapping[str, tuple[float, str]]) -> Quantity:
 
 def number(s: Stages, pair: Pair[float], unit: str, model: str | None = None) -> Quantity:
     """Return a number, its error, and the model that gave it (the contact model unless named)."""
-    error = None if pair.coarse is None else scalar_error(pair.fine, pair.coarse)
+    error = None if pair.coarse is None else scalar_error(pair.fine, pair.coarse, s.difference)
     return Quantity(pair.fine, unit, error, model or s.rung)
 
 

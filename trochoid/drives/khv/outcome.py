@@ -62,6 +62,8 @@ def checks(stages: Stages) -> tuple[Check, ...]:
     for i in range(len(stages.design.discs)):
         found.append(_check(f"disc {i + 1} in equilibrium", disc_residual(stages, i), BALANCE))
     found.append(_check("output pins carry the output torque", torque_residual(stages), BALANCE))
+    if "losses" in stages.clock.seconds:
+        found.append(_check("input power is output power and losses", stages.losses.fine.residual, BALANCE))
     if "reactions" in stages.clock.seconds:
         found.append(
             _check(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from trochoid.plan import Plan, PlannedStage
 from trochoid.scene import Scene
+from trochoid.scene.effects import AnyEffect, Friction
 
 _CONTACT = ("kinematics", "geometry", "mesh", "bodies", "contact")
 
@@ -19,6 +20,11 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "stress_max": (*_CONTACT, "stress"),
     "transmission_error": _CONTACT,
     "torsional_stiffness": _CONTACT,
+    "lost_motion": (*_CONTACT, "torsion"),
+    "backlash": (*_CONTACT, "torsion"),
+    "torsion_curve": (*_CONTACT, "torsion"),
+    "efficiency": (*_CONTACT, "losses"),
+    "power_loss": (*_CONTACT, "losses"),
     "bearing_loads": _CONTACT,
     "bearing_stiffness": (*_CONTACT, "bearing"),
     "reactions": (*_CONTACT, "mass", "reactions"),
@@ -35,6 +41,8 @@ WHY = {
     "mesh": "second-order triangles, on two levels for the error",
     "bodies": "factor of each distinct disc, its compliance at every facet",
     "contact": "all contacts together at every position, on both levels",
+    "torsion": "torque-twist loop at held input, at a few angles",
+    "losses": "the running drive with friction",
     "stress": "von Mises field at one position",
     "bearing": "stiffness of the eccentric bearing under its load",
     "reactions": "bearing reactions over a turn, rigid and elastic",
@@ -61,6 +69,8 @@ def plan(scene: Scene, rung: str, facets: int) -> Plan:
         "mesh": 1e-4 * stations + 0.15,
         "bodies": 3e-3 * stations + 1.2e-6 * stations**2,
         "contact": 2 * positions * contacts * POSITION[rung],
+        "torsion": contacts * (2.0 if scene.friction is not None else 0.5),
+        "losses": contacts * 1.0,
         "stress": 0.1 * d.discs,
         "reactions": 0.03,
         "vibration": 0.02,
@@ -70,4 +80,11 @@ def plan(scene: Scene, rung: str, facets: int) -> Plan:
         PlannedStage(name, why, seconds.get(name, 0.01), memory.get(name, 100.0), name in needed)
         for name, why in WHY.items()
     )
-    return Plan(stages, tuple(e.type for e in scene.effects), scene.ask.quantities, rung)
+    return Plan(stages, tuple(map(_named, scene.effects)), scene.ask.quantities, rung)
+
+
+def _named(effect: AnyEffect) -> str:
+    """Return an effect as the plan shows it, its coefficients with it."""
+    if not isinstance(effect, Friction):
+        return effect.type
+    return f"{effect.type} (ring_pins {effect.ring_pins:g}, output_pins {effect.output_pins:g})"

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from trochoid.drives.khv.contact import (
-    seat_for_seat,
-    widening,
     layout,
     nominal_roller_load,
     plane,
     roller_constant,
+    seat_for_seat,
+    widening,
 )
 from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.spots import Spot

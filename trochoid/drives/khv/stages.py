@@ -10,14 +10,16 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 from trochoid.clock import Clock
 from trochoid.drives.khv.design import Design, design
-from trochoid.kinematics.errors import Infeasible, NotConverged, SceneError, TrochoidError
+from trochoid.kinematics.errors import Infeasible, SceneError, TrochoidError
 from trochoid.scene import Scene
 
 if TYPE_CHECKING:
     from trochoid.drives.khv.bodies import Level
     from trochoid.drives.khv.field import DiscState
+    from trochoid.drives.khv.load_path import LoadPath
     from trochoid.drives.khv.mass import Masses
     from trochoid.drives.khv.reactions import Reactions
+    from trochoid.drives.khv.running import Running
     from trochoid.drives.khv.seat import SeatStiffness
     from trochoid.drives.khv.series import Series
     from trochoid.drives.khv.vibration import CasingVibration
@@ -25,10 +27,6 @@ if TYPE_CHECKING:
 
 COARSEST = 8  # facets per lobe: with 6 the order of convergence is not yet seen, and the estimate misleads
 FINEST = 64
-RESOLVED_BELOW = (
-    1e-3  # tolerance under which pressure is resolved by strips; level 0 agrees with them to 1e-4
-)
-
 
 T = TypeVar("T")
 U = TypeVar("U")
@@ -94,8 +92,8 @@ class Stages:
 
     @property
     def rung(self) -> str:
-        """The contact model."""
-        return rung_of(self.scene)
+        """The contact model: named by the scene, or the cheapest that its tolerance allows."""
+        return named_rung(self.scene) or self.contact.fine.rung
 
     def meshes(self, facets: int) -> tuple[Mesh, ...]:
         """Mesh the distinct discs."""
@@ -105,17 +103,18 @@ class Stages:
 
             return meshes(made, facets)
 
-    def coarsest_level(self) -> Level:
-        """Build the discs on the coarsest level whose mesh thin walls allow; raises what the finest mesh says."""
+    def coarsest(self) -> tuple[int, tuple[Mesh, ...] | None]:
+        """Return the coarsest level whose mesh thin walls allow, with its meshes; the finest without any."""
         facets = COARSEST
         while 2 * facets < FINEST:
-            made = None
             with suppress(TrochoidError):
-                made = self.meshes(facets)
-            if made is not None:
-                return self.level(facets, made)
+                return facets, self.meshes(facets)
             facets *= 2
-        return self.level(facets)
+        return facets, None
+
+    def first_given(self, given: int) -> int:
+        """Return the level that tells the error of the facets per lobe that a scene names."""
+        return max(3, given // 2)
 
     def level(self, facets: int, made: tuple[Mesh, ...] | None = None) -> Level:
         """Build the discs on one mesh level, of which the meshes may be there already."""
@@ -125,14 +124,22 @@ class Stages:
 
             return build_level(self.design, facets, meshes)
 
-    def series(self, level: Level | None) -> Series:
-        """Solve all positions on a level, or with rigid discs."""
-        made = self.feasible
+    def series(self, level: Level | None, rung: str | None = None) -> Series:
+        """Solve all positions on a level, or with rigid discs; on the scene's own rung unless another is named."""
+        made, chosen = self.feasible, rung or self.rung
         with self.clock.stage("contact"):
             from trochoid.drives.khv.series import solve_series
 
             bodies = () if level is None else level.elastic
-            return solve_series(made, self.rung, bodies, self.scene.ask.positions)
+            return solve_series(made, chosen, bodies, self.scene.ask.positions)
+
+    def model_error(self, level: Level) -> float:
+        """Return how far level 0 is from strips."""
+        made = self.feasible
+        with self.clock.stage("contact"):
+            from trochoid.drives.khv.choice import model_error
+
+            return model_error(made, level)
 
     @cached_property
     def contact(self) -> Solved:
@@ -140,27 +147,61 @@ class Stages:
 
         Raises NotConverged when the finest pair does not.
         """
-        if self.rung == "springs":
+        rung, accuracy = named_rung(self.scene), self.scene.accuracy
+        if rung == "springs":
             return Solved(self.series(None), None, None, None)
-        from trochoid.drives.khv.estimate import worst_error
+        from trochoid.drives.khv.choice import choose
 
-        given = self.scene.accuracy.facets_per_lobe
-        level = self.coarsest_level() if given is None else self.level(max(3, given // 2))
-        facets = level.facets_per_lobe
-        coarse = self.series(level)
-        while True:
-            finer = self.level(given or 2 * facets)
-            fine = self.series(finer)
-            error, name = worst_error(fine, coarse)
-            if given is not None or error <= self.scene.accuracy.tolerance:
-                return Solved(fine, coarse, finer, level)
-            facets, level, coarse = 2 * facets, finer, fine
-            if 2 * facets > FINEST:
-                raise NotConverged(
-                    f"the error of {name} is estimated at {error:.1e} with {facets} facets per lobe, more than "
-                    f"accuracy.tolerance = {self.scene.accuracy.tolerance:g}; raise the tolerance to {error:.1e}, or "
-                    "name accuracy.facets_per_lobe and accept the error"
-                )
+        given = accuracy.facets_per_lobe
+        first, meshes = self.coarsest() if given is None else (self.first_given(given), None)
+        levels = (first, given) if given is not None else _doubled(first)
+        built = {first: self.level(first, meshes)}
+        solved: dict[int, Series] = {}
+
+        def solve(rung: str, facets: int) -> Series:
+            if facets not in built:
+                built[facets] = self.level(facets)
+            solved[facets] = self.series(built[facets], rung)
+            return solved[facets]
+
+        tolerance = accuracy.tolerance if given is None else float("inf")
+        found = choose(tolerance, levels, solve, lambda: self.model_error(built[first]), rung)
+        coarse, fine = found.levels[-2:]
+        return Solved(solved[fine], solved[coarse], built[fine], built[coarse])
+
+    @cached_property
+    def difference(self) -> float:
+        """Largest relative difference of the two mesh levels among what the answers rest on; 0 without a mesh."""
+        from trochoid.drives.khv.estimate import differences
+
+        solved = self.contact
+        return 0.0 if solved.coarse is None else max(differences(solved.fine, solved.coarse).values())
+
+    @cached_property
+    def load_path(self) -> Pair[LoadPath]:
+        """Torque-twist loops at held input; on the coarser level at the first angle only, which tells the error."""
+        solved, rung = self.contact, self.rung
+        with self.clock.stage("torsion"):
+            from trochoid.drives.khv.load_path import held_angles, load_path
+
+            angles = held_angles(self.design)
+            fine = load_path(self.design, rung, () if solved.level is None else solved.level.elastic, angles)
+            if solved.coarse_level is None:
+                return Pair(fine, None)
+            return Pair(fine, load_path(self.design, rung, solved.coarse_level.elastic, angles[:1]))
+
+    @cached_property
+    def losses(self) -> Pair[Running]:
+        """The running drive with friction, at some positions of a turn."""
+        solved, rung = self.contact, self.rung
+        with self.clock.stage("losses"):
+            from trochoid.drives.khv.running import run, running_angles
+
+            angles = running_angles(self.scene.accuracy.tolerance)
+            fine = run(self.design, rung, () if solved.level is None else solved.level.elastic, angles)
+            if solved.coarse_level is None:
+                return Pair(fine, None)
+            return Pair(fine, run(self.design, rung, solved.coarse_level.elastic, angles))
 
     @cached_property
     def bearing(self) -> Pair[SeatStiffness]:
@@ -182,7 +223,7 @@ class Stages:
         with self.clock.stage("stress"):
             from trochoid.drives.khv.field import disc_states
 
-            if solved.level is None or solved.coarse_level is None:
+            if solved.level is None:
                 raise SceneError("a rigid disc has no stress: list the effect elastic_contact")
             return Pair(solved.level, solved.coarse_level).map(
                 lambda level: disc_states(self.design, self.rung, level, angle)
@@ -210,10 +251,14 @@ class Stages:
             return found.map(lambda reactions: casing_vibration(self.design, reactions))
 
 
-def rung_of(scene: Scene) -> str:
-    """Return the contact model: named by the scene, or the cheapest that its tolerance allows."""
-    if not scene.has("elastic_contact"):
-        return "springs"
-    if scene.accuracy.model is not None:
-        return scene.accuracy.model
-    return "strips" if scene.accuracy.tolerance < RESOLVED_BELOW else "level0"
+def named_rung(scene: Scene) -> str | None:
+    """Return the contact model that the scene names, by its effects or by accuracy.model; None leaves the choice."""
+    return scene.accuracy.model if scene.has("elastic_contact") else "springs"
+
+
+def _doubled(first: int) -> tuple[int, ...]:
+    """Return the mesh levels that a run may try."""
+    levels = [first]
+    while 2 * levels[-1] <= FINEST:
+        levels.append(2 * levels[-1])
+    return tuple(levels)
