@@ -21,6 +21,7 @@ from trochoid.kinematics.errors import NotConverged, TrochoidError
 from trochoid.results import Outcome, to_json
 from trochoid.run import Run
 from trochoid.scene.effects import EFFECTS
+from trochoid.scene.needs import UNDER_TORQUE
 
 ALL = 'ask.quantities=["' + '","'.join(STAGES_OF) + '"]'
 QUICK = ("ask.positions=4", "accuracy.facets_per_lobe=6")
@@ -42,6 +43,10 @@ def outcome(*overrides: str, effects: tuple[str, ...] = EFFECTS) -> Outcome:
         asked = [n for n in asked if n not in ("reactions", "vibration_velocity", "vibration_zone")]
     if "bearing_compliance" not in effects:
         asked.remove("bearing_stiffness")
+    if UNLOADED in overrides:
+        asked = [n for n in asked if n not in UNDER_TORQUE]
+    if "friction" not in effects:
+        asked = [n for n in asked if n not in ("efficiency", "power_loss")]
     wanted = 'ask.quantities=["' + '","'.join(asked) + '"]'
     return Run(scene(*QUICK, wanted, *overrides, effects=effects)).outcome
 
@@ -69,6 +74,8 @@ def check_sound(found: Outcome) -> dict[str, Any]:
     assert [check for check in document["checks"] if not check["ok"]] == []
     if found.dataset is not None:
         for name, variable in found.dataset.data_vars.items():
+            if str(name).startswith("torsion_line"):  # drawn over a part of the torques only
+                continue
             assert bool(np.isfinite(np.abs(variable)).all()), name
     quantities: dict[str, Any] = document["quantities"]
     return quantities
@@ -223,10 +230,9 @@ def test_one_position() -> None:
 
 
 @pytest.mark.property
-def test_thin_walls_get_a_finer_mesh(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_thin_walls_get_a_finer_mesh() -> None:
     """A wall of 0.2 mm between hole and flank folds elements of the coarsest mesh: the next finer one is taken."""
     taken: list[int] = []
-    monkeypatch.setattr(Stages, "level", lambda stages, facets, made=None: taken.append(facets))
     for circle in (52.0, 63.2):
-        Stages(scene(f"drive.output_pins.circle_radius={circle}"), Clock()).coarsest_level()
+        taken.append(Stages(scene(f"drive.output_pins.circle_radius={circle}"), Clock()).coarsest()[0])
     assert taken == [8, 16]
