@@ -15,8 +15,7 @@ from time import process_time
 import numpy as np
 
 from benchmarks import ccx
-from benchmarks.disc import FLANK, STEEL, TORQUE, WIDTH
-from benchmarks.disc import positions
+from benchmarks.disc import FLANK, STEEL, TORQUE, WIDTH, positions
 from benchmarks.table import Row, Table
 from trochoid.fem.body import build_body
 from trochoid.fem.compliance import press

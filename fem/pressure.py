@@ -37,8 +37,9 @@ def resolved(assembly: Assembly, level0: Contact, coupling: Array) -> Contact:
         except NotConverged as fault:
             raise NotConverged(str(fault), None if fault.row is None else int(rows[fault.row])) from fault
         moved = replace(point, motion=point.motion + solution.motion)
-        spilt = [_spilt(x, p) for x, p in zip(offsets, solution.forces, strict=True)]
-        good = _settled(assembly, moved, solution.motion, rounding(point, problem)[0])
+        length, noise = rounding(point, problem)
+        spilt = [_spilt(x, p, noise) for x, p in zip(offsets, solution.forces, strict=True)]
+        good = _settled(assembly, moved, solution.motion, length)
         stand = ~good
         good &= ~np.any([s.any(axis=1) for s in spilt], axis=0)
         if good.any():
@@ -52,7 +53,7 @@ def resolved(assembly: Assembly, level0: Contact, coupling: Array) -> Contact:
         assembly, coupling, rows = assembly.rows(left), coupling[left], rows[left]
     raise NotConverged(
         f"contact: pressure still reaches the edge of its strips after {WIDENINGS} widenings; "
-        "the surfaces conform, which strips on one contact do not cover",
+        "the surfaces conform, or bend within the contact, and strips on half-planes do not cover that",
         int(rows[0]),
     )
 
@@ -65,11 +66,11 @@ class _Strips:
     offsets: tuple[Array, ...]
 
 
-def _spilt(offset: Array, strips: Array) -> BoolArray:
-    """Return which contacts (n, c) carry at the edge of their strips."""
+def _spilt(offset: Array, strips: Array, noise: Array) -> BoolArray:
+    """Return which contacts (n, c) carry at the edge of their strips, and more than rounding (n,)."""
     if offset.shape[2] == 0:
         return np.zeros(offset.shape[:2], dtype=bool)
-    return np.asarray((strips[..., [0, -1]] > 0).any(axis=2))
+    return np.asarray((strips[..., [0, -1]] > 0).any(axis=2) & (strips.sum(axis=2) > noise[:, None]))
 
 
 def _settled(assembly: Assembly, point: Point, motion: Array, length: Array) -> BoolArray:

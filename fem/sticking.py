@@ -14,7 +14,7 @@ import numpy as np
 
 from trochoid.fem.assembly import Assembly
 from trochoid.fem.coupling import rubbing_coupling
-from trochoid.fem.newton import Point, linearised, turning
+from trochoid.fem.newton import ROUNDING, Point, linearised, turning
 from trochoid.fem.position import PLACE, Contact
 from trochoid.fem.stick_slip import Found, Linear, rows, solve, sought
 from trochoid.kinematics.errors import NotConverged
@@ -37,7 +37,8 @@ class Held:
 
     `along` (n, r) is the force in N on the disc against its sliding along the tangent, of the families with friction in
     order; `stretch` (n, r) in m how far bodies have yielded along the tangent (without the logarithm); `lost` (n,) in J
-    is what friction has taken so far; forces below `faint` (n, 1) are nothing on this path.
+    is what friction has taken so far; `size` (n, 1) in N are the largest forces of the path, and those below `faint`
+    (n, 1) are nothing on it.
     """
 
     point: Point
@@ -45,6 +46,7 @@ class Held:
     stretch: Array
     way: IntArray
     lost: Array
+    size: Array
     faint: Array
 
 
@@ -60,10 +62,12 @@ def begun(assembly: Assembly, coefficients: Mapping[str, float]) -> Held:
     none = np.zeros((len(motion), count))
     lever = np.concatenate([np.abs(s.arms) for s in states], axis=1).max(axis=1)
     largest = np.divide(np.abs(assembly.load), lever, out=np.zeros_like(lever), where=lever > 0)
-    faint = FAINT * largest.max(axis=1, keepdims=True)
-    return Held(
-        Point(states, nothing, motion), none, none, none.astype(np.intp), np.zeros(len(motion)), faint
-    )
+    size = largest.max(axis=1, keepdims=True)
+    place = max(float(np.abs(s.point).max(initial=0.0)) for s in states)
+    noise = ROUNDING * place / min(float(f.kernel.min()) for f in assembly.families)
+    way, lost = none.astype(np.intp), np.zeros(len(motion))
+    faint = np.maximum(FAINT * size, noise)
+    return Held(Point(states, nothing, motion), none, none, way, lost, size, faint)
 
 
 def smooth(found: Contact, assembly: Assembly) -> Point:
@@ -87,7 +91,7 @@ def reversed_to(assembly: Assembly, before: Held, coefficients: Mapping[str, flo
     A loose drive goes through its play and lands on other flanks. A preloaded one keeps what holds it; where that is
     not found at once, friction grows in steps from all contacts slipping.
     """
-    if (free.largest <= LOOSE * before.faint[:, 0] / FAINT).all():
+    if (free.largest <= LOOSE * before.size[:, 0]).all():
         return landed(assembly, before, coefficients, free)
     try:
         return loaded(assembly, before, coefficients)
@@ -222,4 +226,4 @@ def _arrived(before: Held, point: Point, problem: Linear, found: Found) -> Held:
     force = np.where(found.way == before.way, 0.5 * (found.along + before.along), found.along)
     lost = before.lost + np.where(found.way != 0, force * slip, 0.0).sum(axis=1)
     smooth_part = stretch - problem.own[:, problem.rubs] * found.along
-    return Held(point, found.along, smooth_part, found.way, lost, before.faint)
+    return Held(point, found.along, smooth_part, found.way, lost, before.size, before.faint)

@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from trochoid.drives.khv.contact import assembly, layout
+from trochoid.drives.khv.contact import assembly, layout, plane
 from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.running import coefficients, kind_of
+from trochoid.fem.newton import ROUNDING
 from trochoid.fem.position import Assembly, Contact, ElasticBody, solve_positions
 from trochoid.fem.sticking import Held, begun, landed, loaded, reversed_to, smooth
-from trochoid.kinematics.errors import NotConverged
+from trochoid.kinematics.errors import Infeasible, NotConverged
 from trochoid.kinematics.types import Array, frozen
 
 LOST = 0.03  # share of the rated torque at which catalogues measure lost motion
@@ -61,6 +62,7 @@ def load_path(
     shares: tuple[float, ...] = SHARES,
 ) -> LoadPath:
     """Follow the path at input angles (n,) in rad; nothing turns, so nothing has inertia. Raises NotConverged."""
+    _fail_if_faint(design)
     problem = assembly(design, rung, bodies, angles * design.mesh_speed)
     row = layout(design, rung).names.index("output.rotation")
     unit = np.zeros_like(problem.load)
@@ -75,6 +77,19 @@ def load_path(
         )
         raise NotConverged(f"load path{where}: {fault}") from fault
     return LoadPath(frozen(angles), frozen(share), len(shares), frozen(twist / design.leverage), frozen(lost))
+
+
+def _fail_if_faint(design: Design) -> None:
+    """Refuse a torque of which the smallest share presses less than the coordinates' rounding does."""
+    radius = design.flank.pin_circle_radius
+    noise = ROUNDING * radius * design.drive.face_width / plane(design).kernel
+    least = noise * radius / NEAR * design.leverage
+    torque = design.scene.operation.output_torque
+    if abs(torque) < least:
+        raise Infeasible(
+            f"load path: under {NEAR:g} of operation.output_torque = {torque:g} N·m contacts press less than rounding "
+            f"does; give at least {least:.1g} N·m, or do not ask for lost motion and what goes with it"
+        )
 
 
 def _free(problem: Assembly, rung: str, share: Array, row: int) -> tuple[Array, Array]:

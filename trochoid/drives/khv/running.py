@@ -117,7 +117,8 @@ def _locked(design: Design, angle: float, left: float) -> str:
     given = ", ".join(f"{kind}_pins = {value:g}" for kind, value in coefficients(design).items())
     return (
         f"running with friction, at input angle {np.degrees(angle):.6g}°: friction and contact forces do not settle "
-        f"({left:.1e} of them is left) with {given}; the drive may lock; take coefficients up to {MEANT:g}"
+        f"({left:.1e} of them is left) with {given}; the drive may lock (take coefficients up to {MEANT:g}), or be loaded "
+        "so little that forces drown in rounding (give a larger torque)"
     )
 
 
