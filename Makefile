@@ -17,7 +17,7 @@ run: ## set everything up and compute examples/cycloid.toml
 
 test: ## set everything up and run all tests
 	@sh .ci/setup dev
-	@.venv/bin/python -m pytest
+	@.venv/bin/python -m pytest --numprocesses auto --dist loadfile
 
 check: ## style, types and the import contract
 	@sh .ci/setup dev

@@ -191,7 +191,7 @@ def test_strips_lose_what_level0_loses() -> None:
 @pytest.mark.property
 def test_a_drive_that_locks_is_refused() -> None:
     """Far too much friction: no balance while running, and the message says what to do."""
-    with pytest.raises(NotConverged, match=r"ring_pins = 1, .* may lock; take coefficients up to 0\.3"):
+    with pytest.raises(NotConverged, match=r"ring_pins = 1, .* may lock \(take coefficients up to 0\.3\)"):
         running(rubbing(ring=1.0, output=1.0))
 
 

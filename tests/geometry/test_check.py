@@ -28,7 +28,7 @@ EXAMPLE = Cycloid(20, 19, 0.08, 0.005, 0.0025)
 @settings(max_examples=30, deadline=None)
 def test_walls_are_the_least_distances(circle: float, phase: float, count: int) -> None:
     """Brute force over densely sampled flank and hole centres."""
-    flank = EXAMPLE.point(np.linspace(0.0, 2.0 * math.pi, 19 * 400))
+    flank = EXAMPLE.point(np.linspace(0.0, 2.0 * math.pi, 19 * 1200))
     angle = phase + 2.0 * math.pi * np.arange(count) / count
     centers = circle * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
     wall = walls(EXAMPLE, 0.02, count, circle, 0.004, phase)
