@@ -35,13 +35,14 @@ LOST = (
 class Held:
     """Where n drives stand on their load path: contacts and motion, and the way (n, r) that each rubbing contact slips.
 
-    `along` (n, r) is the force in N on the disc against its sliding along the tangent, of the families with friction in
-    order; `stretch` (n, r) in m how far bodies have yielded along the tangent (without the logarithm); `lost` (n,) in J
-    is what friction has taken so far; `size` (n, 1) in N are the largest forces of the path, and those below `faint`
-    (n, 1) are nothing on it.
+    `coupling` (n, 2C, 2C) of all contacts there, as the bodies have tabulated it; `along` (n, r) is the force in N on
+    the first body against its sliding along the tangent, of the families with friction in order; `stretch` (n, r) in m
+    how far bodies have yielded along the tangent (without the logarithm); `lost` (n,) in J is what friction has taken
+    so far; `size` (n, 1) in N are the largest forces of the path, and those below `faint` (n, 1) are nothing on it.
     """
 
     point: Point
+    coupling: Array
     along: Array
     stretch: Array
     way: IntArray
@@ -67,7 +68,8 @@ def begun(assembly: Assembly, coefficients: Mapping[str, float]) -> Held:
     noise = ROUNDING * place / min(float(f.kernel.min()) for f in assembly.families)
     way, lost = none.astype(np.intp), np.zeros(len(motion))
     faint = np.maximum(FAINT * size, noise)
-    return Held(Point(states, nothing, motion), none, none, way, lost, size, faint)
+    point = Point(states, nothing, motion)
+    return Held(point, _coupled(assembly, point), none, none, way, lost, size, faint)
 
 
 def smooth(found: Contact, assembly: Assembly) -> Point:
@@ -79,10 +81,12 @@ def smooth(found: Contact, assembly: Assembly) -> Point:
 def landed(assembly: Assembly, before: Held, coefficients: Mapping[str, float], point: Point) -> Held:
     """Go where small loads lead without friction, after a play or before any load: friction under them is nothing."""
     count, rubs = point.arms.shape[1], _rubs(assembly, coefficients)[0]
-    cross = -_coupled(assembly, point)[:, :count, count + rubs]
+    coupled = _coupled(assembly, point)
+    cross = -coupled[:, :count, count + rubs]
     stretch = np.einsum("ncr,nc->nr", cross, np.concatenate(point.forces, axis=1))
     none = np.zeros_like(before.along)
-    return replace(before, point=point, along=none, stretch=stretch, way=np.zeros_like(before.way))
+    way = np.zeros_like(before.way)
+    return replace(before, point=point, coupling=coupled, along=none, stretch=stretch, way=way)
 
 
 def reversed_to(assembly: Assembly, before: Held, coefficients: Mapping[str, float], free: Point) -> Held:
@@ -116,7 +120,7 @@ def loaded(
     """
     point, guess = (before.point, before.way) if start is None else start
     touch = np.concatenate(point.forces, axis=1) > 0
-    coupled = _coupled(assembly, point)
+    coupled = before.coupling if start is None else _coupled(assembly, point)
     for _ in range(NEWTON):
         problem = _linear(assembly, before, point, coupled, coefficients)
         way = np.sign(problem.pulled).astype(np.intp) * touch[:, problem.rubs] if guess is None else guess
@@ -132,7 +136,7 @@ def loaded(
         change = change / (found.normal.max(axis=1) + before.faint[:, 0] / SETTLED)
         last, point = point, _moved(assembly, point, found)
         if (found.settled & (change <= SETTLED)).all():
-            return _arrived(before, point, problem, found)
+            return _arrived(replace(before, coupling=coupled), point, problem, found)
         if assembly.follow and _far(last, found):
             coupled = _coupled(assembly, point)
     raise NotConverged(LOST, int(np.argmax(np.where(found.settled, change, np.inf))))
@@ -226,4 +230,4 @@ def _arrived(before: Held, point: Point, problem: Linear, found: Found) -> Held:
     force = np.where(found.way == before.way, 0.5 * (found.along + before.along), found.along)
     lost = before.lost + np.where(found.way != 0, force * slip, 0.0).sum(axis=1)
     smooth_part = stretch - problem.own[:, problem.rubs] * found.along
-    return Held(point, found.along, smooth_part, found.way, lost, before.size, before.faint)
+    return Held(point, before.coupling, found.along, smooth_part, found.way, lost, before.size, before.faint)

@@ -85,7 +85,8 @@ def level_of(made: Design, facets: int = 4) -> Level:
     """Return the discs on a coarse mesh, made once for all drives with the same discs; thin walls get a finer one."""
     d = made.drive
     holes = (d.output_pins.count, d.output_pins.circle_radius, made.hole_radius, made.hole_angles)
-    key = (made.flank, holes, d.bore_radius, d.face_width, d.plane, made.scene.materials[d.material], facets)
+    kind = (d.plane, made.scene.materials[d.material], made.scene.friction is not None)
+    key = (made.flank, holes, d.bore_radius, d.face_width, kind, facets)
     if key not in _LEVELS:
         try:
             _LEVELS[key] = build_level(made, facets, meshes(made, facets))
