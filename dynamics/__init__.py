@@ -1,4 +1,4 @@
-"""Reactions and vibration: members, masses, springs and loads, and no word about gears.
+"""Reactions and vibration: members, masses, springs and loads.
 
 The data flow, for one record of equally spaced positions (one input turn, or any other period):
 
@@ -12,4 +12,7 @@ the member; the casing feels its negative.  Inertia forces are d'Alembert's, −
 other.  Harmonic h of a record has the frequency h·(base frequency); complex amplitudes are peak values,
 x(t) = Re Σ c_h exp(i h ω t).  The casing stands still while the members are analysed; its own motion is found
 afterwards and does not act back.
+
+No module here knows gears, but those that begin with `precessional`: the reactions of that drive as its source has
+them, and exactly.
 """
