@@ -161,4 +161,6 @@ def _touch(plain: Touch, offset: Array, strips: Array) -> Touch:
     mean = (strips * offset).sum(axis=2) / whole
     variance = (strips * (offset - mean[..., None]) ** 2).sum(axis=2) / whole
     width = offset[..., 1] - offset[..., 0]
-    return Touch(plain.state, force, 2 * np.sqrt(variance), strips.max(axis=2) / width, offset, strips)
+    return Touch(
+        plain.state, force, 2 * np.sqrt(np.maximum(variance, 0.0)), strips.max(axis=2) / width, offset, strips
+    )

@@ -50,9 +50,9 @@ WHY = {
 }
 
 POSITION = {
-    "springs": 5e-3,
-    "level0": 15e-3,
-    "strips": 25e-3,
+    "springs": 2e-3,
+    "level0": 6.5e-3,
+    "strips": 9e-3,
 }  # seconds for 20 pins, 8 holes, 16 rollers and two discs
 
 
@@ -67,12 +67,12 @@ def plan(scene: Scene, rung: str, facets: int) -> Plan:
     positions = scene.ask.positions + 1
     seconds = {
         "mesh": 1e-4 * stations + 0.15,
-        "bodies": 3e-3 * stations + 1.2e-6 * stations**2,
+        "bodies": (6e-3 if scene.friction is None else 11e-3) * stations + 1.2e-6 * stations**2,
         "contact": 2 * positions * contacts * POSITION[rung],
-        "torsion": contacts * (2.0 if scene.friction is not None else 0.5),
-        "losses": contacts * 1.0,
-        "stress": 0.1 * d.discs,
-        "reactions": 0.03,
+        "torsion": contacts * (3.0 if scene.friction is not None else 0.5),
+        "losses": contacts * 0.7,
+        "stress": 0.35 * d.discs,
+        "reactions": 0.1,
         "vibration": 0.02,
     }
     memory = {"bodies": 120 + 4e-4 * stations**2, "contact": 150 + 4e-4 * stations**2}
