@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,15 +33,7 @@ class Seated:
 
 def coupling(bodies: Sequence[ElasticBody], contacts: Sequence[Seated]) -> Array:
     """Return the compliance (n, C, C) in m/N between all contacts, without the logarithm of each one on itself."""
-    counts = np.cumsum([0] + [c.state.gap.shape[1] for c in contacts])
-    total = np.zeros((len(contacts[0].state.gap), counts[-1], counts[-1]))
-    total[:, np.arange(counts[-1]), np.arange(counts[-1])] = np.concatenate([c.round_side for c in contacts])
-    for number, body in enumerate(bodies):
-        on = [i for i, c in enumerate(contacts) if c.seat is not None and c.seat.body == number]
-        if on:
-            index = np.concatenate([np.arange(counts[i], counts[i + 1]) for i in on])
-            total[:, index[:, None], index] += through(body, [contacts[i] for i in on])
-    return total
+    return _summed(bodies, contacts, 1, Compliance.between)
 
 
 def rubbing_coupling(bodies: Sequence[ElasticBody], contacts: Sequence[Seated]) -> Array:
@@ -50,26 +42,29 @@ def rubbing_coupling(bodies: Sequence[ElasticBody], contacts: Sequence[Seated]) 
 
     Raises TrochoidError when a body was not pressed tangentially.
     """
+    return _summed(bodies, contacts, 2, Compliance.coupled)
+
+
+def _summed(
+    bodies: Sequence[ElasticBody],
+    contacts: Sequence[Seated],
+    directions: int,
+    read: Callable[[Compliance, Weights, Array], Array],
+) -> Array:
+    """Sum round sides and what every body passes on; `read` gives that for one body, direction after direction."""
     counts = np.cumsum([0] + [c.state.gap.shape[1] for c in contacts])
     size = int(counts[-1])
-    total = np.zeros((len(contacts[0].state.gap), 2 * size, 2 * size))
-    total[:, np.arange(2 * size), np.arange(2 * size)] = np.tile(
-        np.concatenate([c.round_side for c in contacts]), 2
-    )
+    every = np.arange(directions * size)
+    total = np.zeros((len(contacts[0].state.gap), len(every), len(every)))
+    total[:, every, every] = np.tile(np.concatenate([c.round_side for c in contacts]), directions)
     for number, body in enumerate(bodies):
         on = [i for i, c in enumerate(contacts) if c.seat is not None and c.seat.body == number]
         if on:
             index = np.concatenate([np.arange(counts[i], counts[i + 1]) for i in on])
-            both = np.concatenate([index, size + index])
+            index = np.concatenate([index + size * direction for direction in range(directions)])
             weights, points = _places([contacts[i] for i in on])
-            total[:, both[:, None], both] += body.compliance.coupled(weights, points) / body.width
+            total[:, index[:, None], index] += read(body.compliance, weights, points) / body.width
     return total
-
-
-def through(body: ElasticBody, contacts: Sequence[Seated]) -> Array:
-    """Return the compliance (n, C, C) in m/N of contacts that press one body."""
-    weights, points = _places(contacts)
-    return body.compliance.between(weights, points) / body.width
 
 
 def _places(contacts: Sequence[Seated]) -> tuple[Weights, Array]:

@@ -19,7 +19,7 @@ import numpy as np
 from trochoid.fem import complementarity as lcp
 from trochoid.fem import friction as coulomb
 from trochoid.fem.assembly import Assembly
-from trochoid.fem.compliance import Weights
+from trochoid.fem.coupling import rubbing_coupling
 from trochoid.fem.friction import Rubbed, Rubbing, System
 from trochoid.fem.newton import FLOOR, ROUNDING, Point, convex, linearised, stable, turning
 from trochoid.fem.pair import State
@@ -187,23 +187,14 @@ def _slide(assembly: Assembly, states: Sequence[State], motion: Array) -> Array:
 
 def _coupling(assembly: Assembly, rubs: Drag, states: Sequence[State]) -> Array:
     """Return the smooth compliance (2C, 2C) in m/N between all contacts, normal and tangential."""
-    counts = np.cumsum([0] + [len(s.gap) for s in states])
+    families = assembly.families
+    seated = [f.seated(taken(s, None)) for f, s in zip(families, states, strict=True)]
+    total = rubbing_coupling(assembly.bodies, seated)[0]
     along = rubs.round_sides or {}
-    sides = [f.round_side for f in assembly.families]
-    total = np.diag(np.concatenate([*sides, *(along.get(f.name, f.round_side) for f in assembly.families)]))
-    for number, body in enumerate(assembly.bodies):
-        weights, points, index = list[Weights](), list[Array](), list[Array]()
-        for i, (family, state) in enumerate(zip(assembly.families, states, strict=True)):
-            seat = family.pair.seat
-            if seat is not None and seat.body == number and state.place is not None:
-                weights.append(seat.weights(state.place))
-                points.append(state.point)
-                index.append(np.arange(counts[i], counts[i + 1]))
-        if weights:
-            rows = np.concatenate([*index, *(counts[-1] + i for i in index)])
-            through = body.compliance.coupled(Weights.joined(weights), np.concatenate(points))
-            total[np.ix_(rows, rows)] += through / body.width
-    return total
+    more = np.concatenate([along.get(f.name, f.round_side) - f.round_side for f in families])
+    own = len(more) + np.arange(len(more))
+    total[own, own] += more
+    return np.asarray(total)
 
 
 def _elastic(assembly: Assembly, rubs: Drag, states: Sequence[State], total: Array) -> Array:

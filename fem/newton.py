@@ -132,12 +132,12 @@ def result(
     """Return the contact that a solution of the linearised problem at `point` stands for; its motion is the point's."""
     noise = rounding(point, problem)[1]
     solution = _without_faint(solution, noise)
-    touches, nothing = {}, np.zeros
+    touches = {}
     for family, state, force in zip(assembly.families, point.states, solution.forces, strict=True):
         total = force.sum(axis=2)
         half = HertzLine(family.kernel, state.radius).half_width(total)
         peak = np.divide(2 * total, np.pi * half, out=np.zeros_like(total), where=half > 0)
-        empty = nothing((*total.shape, 0))
+        empty = np.zeros((*total.shape, 0))
         touches[family.name] = Touch(state, total, half, peak, empty, empty)
     point = replace(point, forces=tuple(touches[f.name].force for f in assembly.families))
     stiffness = _tangents(problem, assembly, solution, turning(assembly, point))
