@@ -13,6 +13,5 @@ other.  Harmonic h of a record has the frequency h·(base frequency); complex am
 x(t) = Re Σ c_h exp(i h ω t).  The casing stands still while the members are analysed; its own motion is found
 afterwards and does not act back.
 
-No module here knows gears, but those that begin with `precessional`: the reactions of that drive as its source has
-them, and exactly.
+No module here knows gears.
 """

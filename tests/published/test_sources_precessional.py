@@ -11,10 +11,10 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from tests.dynamics.precessional_cases import DEGREES, REFERENCE, SPEED, momentum_rates
+from tests.drives.precessional_cases import DEGREES, REFERENCE, SPEED, momentum_rates
 from trochoid.dynamics.casing import Casing, Mount
-from trochoid.dynamics.precessional import Model, Reactions, inertia_couple, reactions
-from trochoid.dynamics.precessional_balance import (
+from trochoid.drives.precessional.reactions import Model, Reactions, inertia_couple, reactions
+from trochoid.drives.precessional.balance import (
     balance_plane,
     couple_lines,
     mean_product,
@@ -24,8 +24,8 @@ from trochoid.dynamics.precessional_balance import (
     static_moment,
     statically_balanced,
 )
-from trochoid.dynamics.precessional_casing import casing_load, casing_vibration, inertia_load
-from trochoid.dynamics.precessional_drive import InputShaft, PrecessionalDrive, mass_moments
+from trochoid.drives.precessional.casing import casing_load, casing_vibration, inertia_load
+from trochoid.drives.precessional.mechanism import InputShaft, PrecessionalDrive, mass_moments
 from trochoid.dynamics.vibration import Point
 from trochoid.kinematics.spherical import rotation, turn
 

@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 from hypothesis import strategies as st
 
-from trochoid.dynamics.precessional_balance import statically_balanced
-from trochoid.dynamics.precessional_drive import Counterweight, InputShaft, PrecessionalDrive, Satellite
+from trochoid.drives.precessional.balance import statically_balanced
+from trochoid.drives.precessional.mechanism import Counterweight, InputShaft, PrecessionalDrive, Satellite
 from trochoid.kinematics.nutation import Nutation
 from trochoid.kinematics.spherical import rotation
 

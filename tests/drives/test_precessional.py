@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.dynamics.precessional_cases import REFERENCE, SPEED, cloud, drives, momentum_rates, satellite_pose
+from tests.drives.precessional_cases import REFERENCE, SPEED, cloud, drives, momentum_rates, satellite_pose
 from trochoid.dynamics.casing import Casing
-from trochoid.dynamics.precessional import inertia_couple, reactions, tooth_couple
-from trochoid.dynamics.precessional_balance import (
+from trochoid.drives.precessional.reactions import inertia_couple, reactions, tooth_couple
+from trochoid.drives.precessional.balance import (
     balance_plane,
     couple_lines,
     mean_product,
@@ -20,13 +20,13 @@ from trochoid.dynamics.precessional_balance import (
     remaining_couple,
     statically_balanced,
 )
-from trochoid.dynamics.precessional_casing import (
+from trochoid.drives.precessional.casing import (
     casing_load,
     casing_vibration,
     closed_record,
     inertia_load,
 )
-from trochoid.dynamics.precessional_drive import PrecessionalDrive
+from trochoid.drives.precessional.mechanism import PrecessionalDrive
 from trochoid.dynamics.spectrum import harmonics
 from trochoid.dynamics.vibration import Point
 from trochoid.dynamics.wrench import Wrench, balance_residual

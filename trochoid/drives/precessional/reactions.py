@@ -22,7 +22,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from trochoid.dynamics.precessional_drive import PrecessionalDrive, mass_moments
+from trochoid.drives.precessional.mechanism import PrecessionalDrive, mass_moments
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.spherical import rotation, turn
 from trochoid.kinematics.types import Array, frozen

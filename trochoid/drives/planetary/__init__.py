@@ -1,0 +1,1 @@
+"""The involute planetary set 2K-H: sun, planets, ring, carrier."""
