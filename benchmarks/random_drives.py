@@ -11,12 +11,13 @@ from benchmarks.run import SCENE
 from trochoid.drives.khv.design import design
 from trochoid.drives.khv.feasible import faults
 from trochoid.kinematics.cycloid import Cycloid
-from trochoid.scene import Scene, load
+from trochoid.scene import load
+from trochoid.scene.drive_khv import KhvScene
 
 OPTIONAL = ("pin_compliance", "inertia", "bearing_compliance")
 
 
-def random_drive(seed: int, positions: int, pins: int = 12) -> Scene:
+def random_drive(seed: int, positions: int, pins: int = 12) -> KhvScene:
     """Return the first buildable scene that a seed leads to; discs are elastic, with up to `pins` pins.
 
     The tolerance is drawn from 1e-3 to 1e-2, evenly in its logarithm.

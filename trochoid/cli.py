@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from textwrap import fill
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -210,7 +210,7 @@ def _folder(scene: str, out: Path | None, as_json: bool) -> Path | None:
     return None if as_json and out is None else out or Path("out") / (Path(scene).stem or "scene")
 
 
-def _load(path: str, overrides: Sequence[str], ask: str | None) -> Scene:
+def _load(path: str, overrides: Sequence[str], ask: str | None) -> Scene[Any]:
     from trochoid.scene import Override, load
 
     asked: list[str | Override] = []

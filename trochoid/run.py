@@ -23,7 +23,7 @@ class Run:
     Stages are values that the quantities share; each is computed once.
     """
 
-    scene: Scene
+    scene: Scene[Any]
     clock: Clock = field(default_factory=Clock)
 
     @cached_property
@@ -56,7 +56,7 @@ class Run:
         return self.drive.outcome(self.stages, quantities)
 
 
-def plan(scene: Scene) -> Plan:
+def plan(scene: Scene[Any]) -> Plan:
     """Say what a run of the scene would do and cost; nothing is solved.
 
     Raises Infeasible with every reason when the drive cannot be built.

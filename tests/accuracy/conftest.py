@@ -15,7 +15,8 @@ from trochoid.drives import Drive
 from trochoid.kinematics.errors import NotConverged, SceneError
 from trochoid.ladder import Ladder, Oracle, Pick, Rung
 from trochoid.results import Outcome, Quantity
-from trochoid.scene import Scene, load
+from trochoid.scene import load
+from trochoid.scene.drive_khv import KhvScene
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "cycloid.toml"
 LEVELS = (8, 16, 32, 64)
@@ -70,7 +71,7 @@ QUANTITIES = {
 }
 
 
-def ladder(scene: Scene, clock: Clock) -> Ladder:
+def ladder(scene: KhvScene, clock: Clock) -> Ladder:
     tolerance = scene.accuracy.tolerance
 
     def build(level: int, clock: Clock) -> int:
@@ -104,7 +105,7 @@ def _no_outcome(stages: object, quantities: object) -> Outcome:
     raise AssertionError("a study needs no outcome")
 
 
-def _no_plan(scene: Scene) -> accuracy.Study:
+def _no_plan(scene: KhvScene) -> accuracy.Study:
     raise AssertionError("a study needs no plan")
 
 

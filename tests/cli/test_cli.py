@@ -62,7 +62,7 @@ def test_help_is_on_standard_output(capsys: Captured, arguments: list[str], said
         (["frobnicate"], "No such command 'frobnicate'"),
         (["run"], "Missing argument 'SCENE'"),
         (["run", EXAMPLE, "--otu", "x"], "No such option"),
-        (["new", "rv"], 'no drive of kind "rv"; this version knows "khv"'),
+        (["new", "worm"], 'no drive of kind "worm"; this version knows "khv"'),
         (["check", "nowhere.toml"], "nowhere.toml: no such file; `trochoid new khv > scene.toml`"),
         (["run", EXAMPLE, "--set", "drive.pins"], "--set drive.pins: need KEY=VALUE"),
         (

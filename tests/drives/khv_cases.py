@@ -19,7 +19,8 @@ from trochoid.fem.position import Contact
 from trochoid.kinematics.cycloid import Cycloid
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array
-from trochoid.scene import Scene, load
+from trochoid.scene import load
+from trochoid.scene.drive_khv import KhvScene
 from trochoid.scene.effects import EFFECTS
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "cycloid.toml"
@@ -68,7 +69,7 @@ def without(*effects: str) -> tuple[str, ...]:
     return tuple(name for name in EFFECTS if name not in effects)
 
 
-def scene(*overrides: str, effects: Sequence[str] = EFFECTS) -> Scene:
+def scene(*overrides: str, effects: Sequence[str] = EFFECTS) -> KhvScene:
     """Return the example with other values."""
     return load(EXAMPLE, (listed(effects), 'ask.quantities=["ratio"]', *overrides))
 
@@ -171,7 +172,7 @@ def largest_force(contact: Contact) -> float:
 
 
 @st.composite
-def drives(draw: st.DrawFn, pins: int = 60, elastic: bool = False) -> Scene:
+def drives(draw: st.DrawFn, pins: int = 60, elastic: bool = False) -> KhvScene:
     """Return a random scene whose drive can be built: any size, plays, number of discs, holes and rollers."""
 
     def between(low: float, high: float) -> float:

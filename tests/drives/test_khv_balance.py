@@ -11,7 +11,7 @@ from tests.drives.khv_cases import all_forces, drives, imbalance, level_of
 from trochoid.drives.khv.bodies import Level
 from trochoid.drives.khv.design import Design, design
 from trochoid.drives.khv.series import solve_at
-from trochoid.scene import Scene
+from trochoid.scene.drive_khv import KhvScene
 
 SLOW = (HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large)
 BALANCE = 1e-9  # issue 2: of every position, relative
@@ -38,7 +38,7 @@ def check_position(made: Design, level: Level | None, angle: float) -> None:
 @pytest.mark.property
 @settings(max_examples=25, deadline=None, suppress_health_check=SLOW)
 @given(drives(), st.floats(0, 2 * np.pi))
-def test_rigid_discs_on_springs_balance(scene: Scene, angle: float) -> None:
+def test_rigid_discs_on_springs_balance(scene: KhvScene, angle: float) -> None:
     """6…60 pins, 1…3 discs, 3…12 holes, 4…24 rollers, 10 mm to 1 m, ring or output fixed, any plays: ≤ 1e-9."""
     check_position(design(scene), None, angle)
 
@@ -46,7 +46,7 @@ def test_rigid_discs_on_springs_balance(scene: Scene, angle: float) -> None:
 @pytest.mark.property
 @settings(max_examples=6, deadline=None, suppress_health_check=SLOW)
 @given(drives(pins=40, elastic=True), st.floats(0, 2 * np.pi))
-def test_elastic_discs_balance(scene: Scene, angle: float) -> None:
+def test_elastic_discs_balance(scene: KhvScene, angle: float) -> None:
     """The same with elastic discs, which share a body or not, in plane strain or stress: ≤ 1e-9."""
     made = design(scene)
     check_position(made, level_of(made), angle)

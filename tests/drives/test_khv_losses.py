@@ -18,7 +18,8 @@ from trochoid.fem.position import solve_positions
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
 from trochoid.run import Run
-from trochoid.scene import Friction, Scene, load
+from trochoid.scene import Friction, load
+from trochoid.scene.drive_khv import KhvScene
 
 HAND = ("clearance",)  # the hand calculation: rigid discs on equal springs, their centres held
 ELASTIC = ("elastic_contact", "pin_compliance", "clearance", "bearing_compliance", "inertia")
@@ -27,7 +28,7 @@ ANGLES = 2 * np.pi * np.arange(6) / 6
 
 def rubbing(
     *overrides: str, ring: float = 0.05, output: float = 0.05, effects: tuple[str, ...] = ELASTIC
-) -> Scene:
+) -> KhvScene:
     """Return the example with friction and other values."""
     friction = f'{{type="friction", ring_pins={ring}, output_pins={output}}}'
     others = [f'{{type="{name}"}}' for name in effects]
@@ -35,7 +36,7 @@ def rubbing(
     return load(EXAMPLE, (listed, 'ask.quantities=["ratio"]', *overrides))
 
 
-def running(scene: Scene, angles: Array = ANGLES, rung: str = "level0") -> tuple[Design, Running]:
+def running(scene: KhvScene, angles: Array = ANGLES, rung: str = "level0") -> tuple[Design, Running]:
     """Return the running drive on a coarse mesh, or of rigid discs."""
     made = design(scene)
     bodies = level_of(made).elastic if scene.has("elastic_contact") else ()
@@ -208,7 +209,7 @@ def test_every_second_position() -> None:
 @pytest.mark.property
 @settings(max_examples=15, deadline=None)
 @given(drives(pins=30), st.sampled_from([0.0, 0.02, 0.1, 0.3]))
-def test_random_drives_run(given_scene: Scene, mu: float) -> None:
+def test_random_drives_run(given_scene: KhvScene, mu: float) -> None:
     """Any drive that can be built runs with friction up to 0.3, its power in balance at every position."""
     rubs = Friction(type="friction", ring_pins=mu, output_pins=mu)
     made = design(given_scene.model_copy(update={"effects": (*given_scene.effects, rubs)}))

@@ -15,12 +15,13 @@ from trochoid.drives.khv.load_path import LOST, NEAR, LoadPath, between, held_an
 from trochoid.drives.khv.torsion import Torsion, torsion
 from trochoid.kinematics.types import Array
 from trochoid.run import Run
-from trochoid.scene import Scene, load
+from trochoid.scene import load
+from trochoid.scene.drive_khv import KhvScene
 
 T = 400.0
 
 
-def followed(given: Scene, rung: str = "level0", angles: Array | None = None) -> LoadPath:
+def followed(given: KhvScene, rung: str = "level0", angles: Array | None = None) -> LoadPath:
     """Return the load path on a coarse mesh, or of rigid discs."""
     made = design(given)
     bodies = level_of(made).elastic if given.has("elastic_contact") else ()

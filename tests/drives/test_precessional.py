@@ -10,8 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.drives.precessional_cases import REFERENCE, SPEED, cloud, drives, momentum_rates, satellite_pose
-from trochoid.dynamics.casing import Casing
-from trochoid.drives.precessional.reactions import inertia_couple, reactions, tooth_couple
 from trochoid.drives.precessional.balance import (
     balance_plane,
     couple_lines,
@@ -27,6 +25,8 @@ from trochoid.drives.precessional.casing import (
     inertia_load,
 )
 from trochoid.drives.precessional.mechanism import PrecessionalDrive
+from trochoid.drives.precessional.reactions import inertia_couple, reactions, tooth_couple
+from trochoid.dynamics.casing import Casing
 from trochoid.dynamics.spectrum import harmonics
 from trochoid.dynamics.vibration import Point
 from trochoid.dynamics.wrench import Wrench, balance_residual

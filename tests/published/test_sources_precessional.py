@@ -12,8 +12,6 @@ import numpy.typing as npt
 import pytest
 
 from tests.drives.precessional_cases import DEGREES, REFERENCE, SPEED, momentum_rates
-from trochoid.dynamics.casing import Casing, Mount
-from trochoid.drives.precessional.reactions import Model, Reactions, inertia_couple, reactions
 from trochoid.drives.precessional.balance import (
     balance_plane,
     couple_lines,
@@ -26,6 +24,8 @@ from trochoid.drives.precessional.balance import (
 )
 from trochoid.drives.precessional.casing import casing_load, casing_vibration, inertia_load
 from trochoid.drives.precessional.mechanism import InputShaft, PrecessionalDrive, mass_moments
+from trochoid.drives.precessional.reactions import Model, Reactions, inertia_couple, reactions
+from trochoid.dynamics.casing import Casing, Mount
 from trochoid.dynamics.vibration import Point
 from trochoid.kinematics.spherical import rotation, turn
 

@@ -9,7 +9,8 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from trochoid.kinematics.cycloid import Cycloid
-from trochoid.scene import NEEDS, Override, Scene, read
+from trochoid.scene import NEEDS, Override, read
+from trochoid.scene.drive_khv import KhvScene
 from trochoid.scene.needs import UNDER_TORQUE
 
 Tables: TypeAlias = dict[str, Any]
@@ -17,7 +18,7 @@ RIGID = ("clearance", "pin_compliance", "inertia", "bearing_compliance", "casing
 INCH = 25.4
 
 
-def scene_of(raw: Tables) -> Scene:
+def scene_of(raw: Tables) -> KhvScene:
     """Return the scene that tables describe; raises what a file with them raises."""
     return read("", [Override((name,), value, name) for name, value in raw.items()])
 

@@ -12,9 +12,9 @@ import numpy as np
 
 from tests.scene.random_drives import Tables, scene_of
 from trochoid.drives.khv.design import Design, design
-from trochoid.faults import nearest
+from trochoid.faults import listed, nearest
 from trochoid.kinematics.cycloid import Cycloid
-from trochoid.scene import EFFECTS, NEEDS
+from trochoid.scene import EFFECTS, KINDS, NEEDS
 from trochoid.scene.needs import UNDER_TORQUE
 
 LENGTHS = tuple(
@@ -47,7 +47,7 @@ WHOLE = {
     "drive.eccentric_bearing.rollers": (2, 201),
     "ask.positions": (0, 100_001),
 }
-WORDS = {"drive.fixed": '"ring", "output"', "drive.type": '"khv"'}
+WORDS = {"drive.fixed": '"ring", "output"', "drive.type": listed(KINDS)}
 TABLES = (
     "drive.output_pins",
     "drive.eccentric_bearing",

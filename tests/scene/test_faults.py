@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from trochoid.faults import Fault, SceneFaults
+from trochoid.faults import Fault, SceneFaults, listed
 from trochoid.kinematics.errors import SceneError
-from trochoid.scene import EFFECTS, NEEDS, Override, Scene, load, read
+from trochoid.scene import EFFECTS, KINDS, NEEDS, Override, Scene, load, read
 from trochoid.scene.lines import key_lines
 from trochoid.starter import starter
 
@@ -51,8 +51,8 @@ def faults_of(text: str, *overrides: str | Override) -> tuple[Fault, ...]:
         ),
         ("discs = 2", "discs = true", "drive.discs: given true; need a whole number from 1 to 12"),
         ('fixed = "ring"', 'fixed = "disc"', 'drive.fixed: given "disc"; need one of "ring", "output"'),
-        ('type = "khv"', 'type = "rv"', 'drive.type: given "rv"; this version knows "khv"'),
-        ('type = "khv"', "", 'drive.type: missing; need the kind of drive: "khv"'),
+        ('type = "khv"', 'type = "worm"', f'drive.type: given "worm"; this version knows {listed(KINDS)}'),
+        ('type = "khv"', "", f"drive.type: missing; need the kind of drive: {listed(KINDS)}"),
         (
             'material = "steel"',
             'material = "stel"',

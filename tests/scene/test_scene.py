@@ -82,7 +82,7 @@ def test_offered_quantities_are_known_ones() -> None:
 def test_public_names_are_lazy() -> None:
     """`dir` lists the names before they are imported; an unknown one is an AttributeError."""
     assert {"load", "Run", "Scene", "TrochoidError"} <= set(dir(trochoid))
-    assert trochoid.Scene is type(trochoid.load(EXAMPLE))
+    assert isinstance(trochoid.load(EXAMPLE), trochoid.Scene)
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         trochoid.nothing  # noqa: B018
 

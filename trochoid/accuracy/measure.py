@@ -25,7 +25,7 @@ Key = tuple[str, int | None]
 
 
 def study(
-    scene: Scene,
+    scene: Scene[Any],
     budget: float = BUDGET,
     announce: Callable[[str], None] = lambda text: None,
     oracle: bool = False,
@@ -37,6 +37,10 @@ def study(
     NotConverged when fewer than two levels could be solved.
     """
     drive = drive_of(scene.drive.type)
+    if drive.ladder is None:
+        raise SceneError(
+            f"all answers about {scene.drive.type} drives are closed forms: they have no error to pay for"
+        )
     ladder = drive.ladder(scene, Clock(announce))
     if not ladder.quantities:
         raise SceneError(

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, cast
 from trochoid.clock import Clock
 from trochoid.ladder import Ladder
 from trochoid.plan import Plan
-from trochoid.scene import Scene
 
 if TYPE_CHECKING:
     from trochoid.results.outcome import Outcome, Quantity
@@ -19,14 +18,14 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, slots=True)
 class Drive:
     """What a drive's folder offers: its stages of a scene, its quantities and outcome made from them, its plan, and
-    the ladder of its models.
+    the ladder of its models (None: closed forms, and nothing to choose).
     """
 
-    stages: Callable[[Scene, Clock], Any]
+    stages: Callable[[Any, Clock], Any]
     quantities: Mapping[str, Callable[[Any], Quantity]]
     outcome: Callable[[Any, Mapping[str, Quantity]], Outcome]
-    plan: Callable[[Scene], Plan]
-    ladder: Callable[[Scene, Clock], Ladder]
+    plan: Callable[[Any], Plan]
+    ladder: Callable[[Any, Clock], Ladder] | None = None
 
 
 def drive_of(kind: str) -> Drive:

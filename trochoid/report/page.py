@@ -31,6 +31,7 @@ def render(outcome: Outcome) -> str:
         tables=tables_of(outcome.quantities),
         figures={title: caption for title, (_, caption) in figures.items()},
         drawing=drawing is not None,
+        drawing_title="The drive and its contact forces" if _forces(outcome) else "The drive in motion",
         failed=[check for check in outcome.checks if not check.ok],
         seconds=sum(stage.seconds for stage in outcome.stages),
         scene=_scene(outcome),
@@ -56,11 +57,16 @@ def _scene(outcome: Outcome) -> list[Table]:
 
 
 def _figures(outcome: Outcome) -> dict[str, tuple[Mapping[str, Any], str]]:
-    if outcome.dataset is None:
-        return {}
-    from trochoid.report.figures import figures
+    found: dict[str, tuple[Mapping[str, Any], str]] = {}
+    if outcome.plots:
+        from trochoid.report.plots import plot_spec
 
-    return {figure.title: (figure.spec, figure.caption) for figure in figures(outcome.dataset)}
+        found |= {plot.title: (plot_spec(plot), plot.caption) for plot in outcome.plots}
+    if outcome.dataset is not None:
+        from trochoid.report.figures import figures
+
+        found |= {figure.title: (figure.spec, figure.caption) for figure in figures(outcome.dataset)}
+    return found
 
 
 def _drawing(outcome: Outcome) -> dict[str, Any] | None:
@@ -69,6 +75,10 @@ def _drawing(outcome: Outcome) -> dict[str, Any] | None:
     from trochoid.report.drawing import drawing_spec
 
     return drawing_spec(outcome.drawing)
+
+
+def _forces(outcome: Outcome) -> bool:
+    return outcome.drawing is not None and any(frame.arrows for frame in outcome.drawing.frames)
 
 
 def _embedded(data: Any) -> str:

@@ -14,11 +14,13 @@ from trochoid.results.outcome import (
     Quantity,
     Stage,
 )
+from trochoid.results.plot import Axis, Plot, PlotCurve, PlotSurface
 from trochoid.results.terminal import show
 from trochoid.results.write import write
 
 __all__ = [
     "Arrow",
+    "Axis",
     "Check",
     "Drawing",
     "DrawingFrame",
@@ -26,6 +28,9 @@ __all__ = [
     "Line",
     "Outcome",
     "Parts",
+    "Plot",
+    "PlotCurve",
+    "PlotSurface",
     "Quantity",
     "Stage",
     "prepare",

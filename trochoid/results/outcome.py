@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias, Union
 
 from trochoid.kinematics.types import Array, IntArray
+from trochoid.results.plot import Plot
 
 if TYPE_CHECKING:
     import xarray
@@ -119,8 +120,9 @@ class Outcome:
 
     `scene`: as used, SI. `not_needed`: stages that were not run. `dataset`: coordinates and variables in SI,
     attrs `units`, `long_name` and, when plotted, `figure` (its title), optional `plot` ("line", "heatmap"),
-    `scale` ("log"), `caption`. `fields`: per frame the input angle (rad) and the bodies. `notes`: heading →
-    sentence. `facts`: main data for the head of the report. `not_simulated`: effect → what its absence means.
+    `scale` ("log"), `caption`. `plots`: pictures of their own. `fields`: per frame the input angle (rad) and the
+    bodies. `notes`: heading → sentence. `facts`: main data for the head of the report. `not_simulated`: effect →
+    what its absence means.
     """
 
     scene: Mapping[str, Any]
@@ -132,6 +134,7 @@ class Outcome:
     dataset: xarray.Dataset | None = None
     fields: tuple[FieldFrame, ...] = ()
     drawing: Drawing | None = None
+    plots: tuple[Plot, ...] = ()
     notes: Mapping[str, str] = field(default_factory=dict)
     title: str = ""
     facts: Mapping[str, Quantity] = field(default_factory=dict)

@@ -2,15 +2,6 @@
 
 from trochoid.scene.ask import Accuracy, Ask
 from trochoid.scene.casing import Casing, MeasuringPoint, Mount
-from trochoid.scene.drive_khv import (
-    EccentricBearing,
-    InputShaft,
-    KhvDrive,
-    Modification,
-    OutputFlange,
-    OutputPins,
-    Ring,
-)
 from trochoid.scene.effects import EFFECTS, Effect, Friction
 from trochoid.scene.load import load, read
 from trochoid.scene.materials import Material
@@ -27,20 +18,13 @@ __all__ = [
     "Accuracy",
     "Ask",
     "Casing",
-    "EccentricBearing",
     "Effect",
     "Friction",
-    "InputShaft",
-    "KhvDrive",
     "Material",
     "MeasuringPoint",
-    "Modification",
     "Mount",
     "Operation",
-    "OutputFlange",
-    "OutputPins",
     "Override",
-    "Ring",
     "Scene",
     "load",
     "read",

@@ -10,7 +10,16 @@ from trochoid.faults import Key, listed, meant, nearest, quoted, shown
 from trochoid.scene import units
 from trochoid.scene.effects import EFFECTS
 from trochoid.scene.materials import PREDEFINED
-from trochoid.scene.needs import ELASTIC_MODELS, KINDS, NEEDS, NOT_WITH_SPRINGS, QUANTITIES, UNDER_TORQUE
+from trochoid.scene.needs import (
+    EFFECTS_OF,
+    ELASTIC_MODELS,
+    KINDS,
+    MODELS_OF,
+    NEEDS,
+    NOT_WITH_SPRINGS,
+    QUANTITIES,
+    UNDER_TORQUE,
+)
 
 Found: TypeAlias = tuple[Key, str]
 
@@ -22,10 +31,12 @@ def faults(raw: Mapping[str, Any]) -> Iterator[Found]:
     yield from _material(drive, _table(raw, "materials"))
     yield from _twice("effects", [(("effects", i, "type"), name) for i, name in effects])
     yield from _mounts(raw, effects)
-    yield from _model(_table(raw, "accuracy"), {name for _, name in effects} | _probable_effects(raw))
     yield from _points(_table(raw, "casing"))
     kind = drive.get("type")
     if isinstance(kind, str) and kind in KINDS:
+        yield from _foreign_effects(kind, effects)
+        yield from _accuracy(raw, kind)
+        yield from _model(_table(raw, "accuracy"), {name for _, name in effects} | _probable_effects(raw))
         yield from _quantities(raw, kind, {name for _, name in effects} | _probable_effects(raw))
 
 
@@ -98,6 +109,22 @@ def _model(accuracy: Mapping[str, Any], effects: set[str]) -> Iterator[Found]:
     model = accuracy.get("model")
     if isinstance(model, str) and model in ELASTIC_MODELS and "elastic_contact" not in effects:
         yield ("accuracy", "model"), f"{quoted(model)} needs {_absent(['elastic_contact'])}"
+
+
+def _foreign_effects(kind: str, effects: Sequence[tuple[int, str]]) -> Iterator[Found]:
+    offered = EFFECTS_OF[kind]
+    for i, name in effects:
+        if name not in offered:
+            has = f"it has {listed(offered)}" if offered else "it has none"
+            yield ("effects", i, "type"), f"{quoted(name)} is not an effect of {kind} drives; {has}"
+
+
+def _accuracy(raw: Mapping[str, Any], kind: str) -> Iterator[Found]:
+    if "accuracy" in raw and not MODELS_OF[kind]:
+        yield (
+            ("accuracy",),
+            f"all answers about {kind} drives are closed forms: take the table [accuracy] away",
+        )
 
 
 def _points(casing: Mapping[str, Any]) -> Iterator[Found]:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 
 from trochoid.scene.fields import (
     Angle,
+    DriveTable,
     Inertia,
     Length,
     Mass,
@@ -18,6 +19,7 @@ from trochoid.scene.fields import (
     Whole,
     fault,
 )
+from trochoid.scene.model import Scene
 
 
 def _ascending(positions: tuple[float, float]) -> tuple[float, float]:
@@ -92,7 +94,7 @@ def _one_less_than_pins(data: dict[str, Any]) -> int:
     return pins - 1
 
 
-class KhvDrive(Table):
+class KhvDrive(DriveTable):
     """[drive] with type = "khv"."""
 
     type: Literal["khv"]
@@ -106,7 +108,6 @@ class KhvDrive(Table):
     disc_gap: Play = 0.002
     bore_radius: PositiveLength
     fixed: Literal["ring", "output"] = "ring"
-    material: str = "steel"
     plane: Literal["strain", "stress"] = "strain"
     pin_clearance: Play = 0.0
     contact_stiffness: Stiffness | None = None
@@ -126,3 +127,7 @@ class KhvDrive(Table):
                 f"given {lobes}; need pins - 1 = {pins - 1} (other tooth differences are not offered yet)"
             )
         return lobes
+
+
+KhvScene: TypeAlias = Scene[KhvDrive]
+SCENE = KhvScene

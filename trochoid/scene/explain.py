@@ -4,23 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from trochoid.faults import Key, dotted, listed, meant, nearest, quoted, shown
 from trochoid.scene import form
 from trochoid.scene.effects import EFFECTS
 from trochoid.scene.fields import FAULT
-from trochoid.scene.model import Scene
 
 _TABLE_TYPES = ("model_type", "model_attributes_type", "dict_type")
 _EFFECT_TYPES = ("union_tag_invalid", "union_tag_not_found")
 
 
-def explained(error: ValidationError) -> Iterator[tuple[Key, str]]:
-    """Yield (key, message) for each error, one for what is one mistake."""
+def explained(error: ValidationError, scene: type[BaseModel]) -> Iterator[tuple[Key, str]]:
+    """Yield (key, message) for each error that `scene`, the model, has found, one for what is one mistake."""
     details = error.errors(include_url=False)
-    meant_keys = {key for e in details if e["type"] == "extra_forbidden" for key in _meant_keys(e["loc"])}
+    meant_keys = {
+        key for e in details if e["type"] == "extra_forbidden" for key in _meant_keys(scene, e["loc"])
+    }
     seen: set[Key] = set()
     for detail in details:
         key = _key(detail)
@@ -30,7 +31,7 @@ def explained(error: ValidationError) -> Iterator[tuple[Key, str]]:
             continue
         if detail["type"] != "extra_forbidden":
             seen.add(key)
-        yield key, _message(detail, key)
+        yield key, _message(scene, detail, key)
 
 
 def _key(detail: ErrorDetails) -> Key:
@@ -43,23 +44,23 @@ def _key(detail: ErrorDetails) -> Key:
     return loc[:-1] if detail["type"] == "missing" and isinstance(loc[-1], int) else loc
 
 
-def _message(detail: ErrorDetails, key: Key) -> str:
+def _message(scene: type[BaseModel], detail: ErrorDetails, key: Key) -> str:
     kind, given = detail["type"], detail["input"]
     if kind == FAULT:
         return detail["msg"]
     if kind == "extra_forbidden":
-        return _unknown_key(key)
+        return _unknown_key(scene, key)
     if kind in _EFFECT_TYPES:
         return _effect(given)
     if kind in _TABLE_TYPES:
         return f"given {shown(given)}; need a table [{dotted(key)}]"
     if kind == "missing" and isinstance(detail["loc"][-1], str):
-        return _missing(key)
-    return f"given {shown(given)}; need {form.allowed(form.annotation_at(key))}"
+        return _missing(scene, key)
+    return f"given {shown(given)}; need {form.allowed(form.annotation_at(scene, key))}"
 
 
-def _missing(key: Key) -> str:
-    annotation = form.annotation_at(key)
+def _missing(scene: type[BaseModel], key: Key) -> str:
+    annotation = form.annotation_at(scene, key)
     if form.model_of(annotation) is not None:
         return f"missing table [{dotted(key)}]"
     return f"missing; need {form.allowed(annotation)}"
@@ -74,15 +75,15 @@ def _effect(given: object) -> str:
     return f"unknown effect {quoted(name)}; {meant(name, EFFECTS)}"
 
 
-def _meant_keys(key: Key) -> list[Key]:
+def _meant_keys(scene: type[BaseModel], key: Key) -> list[Key]:
     """Return what an unknown key was probably meant to be: its name elsewhere, else a similar one here."""
-    near = nearest(str(key[-1]), form.names(key[:-1]))
-    return [(*home, key[-1]) for home in _homes(key)] or ([(*key[:-1], near)] if near else [])
+    near = nearest(str(key[-1]), form.names(scene, key[:-1]))
+    return [(*home, key[-1]) for home in _homes(scene, key)] or ([(*key[:-1], near)] if near else [])
 
 
-def _unknown_key(key: Key) -> str:
-    known, name = form.names(key[:-1]), str(key[-1])
-    homes = _homes(key)
+def _unknown_key(scene: type[BaseModel], key: Key) -> str:
+    known, name = form.names(scene, key[:-1]), str(key[-1])
+    homes = _homes(scene, key)
     if not homes:
         return f"unknown key; {meant(name, known)}"
     near = nearest(name, known)
@@ -91,6 +92,6 @@ def _unknown_key(key: Key) -> str:
     return f"unknown key here; it belongs to {places}{here}"
 
 
-def _homes(key: Key) -> list[Key]:
+def _homes(scene: type[BaseModel], key: Key) -> list[Key]:
     """Return the tables that do know the last part of `key`."""
-    return [table for table, model in form.tables(Scene) if key[-1] in model.model_fields]
+    return [table for table, model in form.tables(scene) if key[-1] in model.model_fields]

@@ -26,6 +26,13 @@ class Table(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, protected_namespaces=())
 
 
+class DriveTable(Table):
+    """[drive]: what every kind of drive says of itself."""
+
+    type: str
+    material: str = "steel"
+
+
 @dataclass(frozen=True, slots=True)
 class Measure:
     """A quantity of a family; limits in the default unit, `above`, `below` exclusive, `least`, `most` inclusive."""

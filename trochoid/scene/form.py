@@ -9,12 +9,11 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel
 
 from trochoid.faults import Key, listed
-from trochoid.scene.model import Scene
 
 
-def names(key: Key) -> Sequence[str]:
+def names(scene: type[BaseModel], key: Key) -> Sequence[str]:
     """Return the keys that the table at `key` knows; of an effect, whichever it is, those of all effects."""
-    annotation = annotation_at(key)
+    annotation = annotation_at(scene, key)
     models = [model for part in (annotation, *get_args(_bare(annotation))) if (model := model_of(part))]
     return tuple(dict.fromkeys(name for model in models for name in model.model_fields))
 
@@ -28,9 +27,9 @@ def tables(model: type[BaseModel], key: Key = ()) -> Iterator[tuple[Key, type[Ba
             yield from tables(inner, (*key, name))
 
 
-def annotation_at(key: Key) -> Any:
-    """Return the type of what stands at `key`; an entry of a list or of a dictionary may have any name."""
-    annotation: Any = Scene
+def annotation_at(scene: type[BaseModel], key: Key) -> Any:
+    """Return the type of what stands at `key` of a scene; an entry of a list or a dictionary may have any name."""
+    annotation: Any = scene
     for part in key:
         model = model_of(annotation)
         if model is not None:

@@ -15,11 +15,12 @@ from trochoid.scene import cross, toml_text
 from trochoid.scene import overrides as replacing
 from trochoid.scene.explain import explained
 from trochoid.scene.materials import with_predefined
-from trochoid.scene.model import Scene
+from trochoid.scene.model import Scene, scene_model
+from trochoid.scene.needs import KINDS
 from trochoid.scene.overrides import Override
 
 
-def load(path: str | PathLike[str], overrides: Sequence[str | Override] = ()) -> Scene:
+def load(path: str | PathLike[str], overrides: Sequence[str | Override] = ()) -> Scene[Any]:
     """Return the scene in the TOML file at `path`, with "a.b=value" overrides put in.
 
     Raises SceneError: a file that cannot be read, or SceneFaults with one message per fault.
@@ -27,7 +28,7 @@ def load(path: str | PathLike[str], overrides: Sequence[str | Override] = ()) ->
     return read(_text(Path(path)), overrides, source=fspath(path))
 
 
-def read(text: str, overrides: Sequence[str | Override] = (), source: str = "scene") -> Scene:
+def read(text: str, overrides: Sequence[str | Override] = (), source: str = "scene") -> Scene[Any]:
     """Return the scene written in `text`; `source` is its name in faults. Raises SceneFaults."""
     parsed = [replacing.parse(each) if isinstance(each, str) else each for each in overrides]
     accepted = [each for each in parsed if isinstance(each, Override)]
@@ -41,16 +42,23 @@ def read(text: str, overrides: Sequence[str | Override] = (), source: str = "sce
     return scene
 
 
-def build(raw: dict[str, Any]) -> tuple[Scene | None, list[tuple[Key, str]]]:
+def build(raw: dict[str, Any]) -> tuple[Scene[Any] | None, list[tuple[Key, str]]]:
     """Return the scene that plain dictionaries describe, or None, and what is wrong as (key, message)."""
     complete = raw | {"materials": with_predefined(raw.get("materials", {}))}
     scene, found = None, list(cross.kind_faults(raw))
+    # where the kind is in doubt, everything but the drive is checked by the tables that all kinds share
+    model = scene_model(KINDS[0] if found else _kind(raw))
     try:
-        scene = Scene.model_validate(complete)
+        scene = model.model_validate(complete)
     except ValidationError as error:
-        found += [(key, text) for key, text in explained(error) if not (found and key[0] == "drive")]
+        found += [(key, text) for key, text in explained(error, model) if not (found and key[0] == "drive")]
     found += cross.faults(raw)
     return (None if found else scene), found
+
+
+def _kind(raw: dict[str, Any]) -> str:
+    drive = raw.get("drive")
+    return str(drive["type"]) if isinstance(drive, dict) else KINDS[0]
 
 
 def _text(path: Path) -> str:

@@ -32,7 +32,7 @@ QUANTITIES = (
     "mass",
 )
 
-# quantity -> effects without which it has no meaning; load sharing without "elastic_contact": equal springs
+# kind -> quantity -> effects without which it has no meaning; load sharing without "elastic_contact": equal springs
 NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
     "khv": {
         "ratio": (),
@@ -62,6 +62,22 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
 }
 
 KINDS = tuple(NEEDS)
+
+# the effects that a kind of drive can have in its equations
+EFFECTS_OF: dict[str, tuple[str, ...]] = {
+    "khv": (
+        "elastic_contact",
+        "pin_compliance",
+        "clearance",
+        "bearing_compliance",
+        "inertia",
+        "casing_on_mounts",
+        "friction",
+    ),
+}
+
+# the contact models among which a kind of drive chooses; none: closed forms, and nothing to choose
+MODELS_OF: dict[str, tuple[str, ...]] = {"khv": ("springs", "level0", "strips")}
 ELASTIC_MODELS = ("level0", "strips")
 UNDER_TORQUE = (
     "lost_motion",

@@ -12,10 +12,10 @@ from trochoid.drives.khv.plan import plan
 from trochoid.drives.khv.stages import COARSEST, Stages, named_rung
 from trochoid.ladder import Ladder
 from trochoid.plan import Plan
-from trochoid.scene import Scene
+from trochoid.scene.drive_khv import KhvScene
 
 
-def _plan(scene: Scene) -> Plan:
+def _plan(scene: KhvScene) -> Plan:
     given = scene.accuracy.facets_per_lobe
     rung = named_rung(scene)
     made = plan(scene, rung or "level0", COARSEST if given is None else max(3, given // 2))
@@ -26,7 +26,7 @@ def _plan(scene: Scene) -> Plan:
     return made
 
 
-def _ladder(scene: Scene, clock: Clock) -> Ladder:
+def _ladder(scene: KhvScene, clock: Clock) -> Ladder:
     from trochoid.drives.khv.ladder import ladder
 
     return ladder(scene, clock)

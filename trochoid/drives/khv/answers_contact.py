@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from trochoid.drives.khv.numbers import ARCMIN, number, over_turn
+from trochoid.drives.exact import ARCMIN
+from trochoid.drives.khv.numbers import number, over_turn
 from trochoid.drives.khv.stages import Stages
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Parts, Quantity

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from trochoid.drives.khv.numbers import RPM, exact, over_turn
+from trochoid.drives.exact import RPM, exact
+from trochoid.drives.khv.numbers import over_turn
 from trochoid.drives.khv.stages import Stages
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Quantity

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from trochoid.drives.exact import ARCMIN
 from trochoid.drives.khv.estimate import scalar_error
-from trochoid.drives.khv.numbers import ARCMIN
 from trochoid.drives.khv.running import Running
 from trochoid.drives.khv.stages import Stages
 from trochoid.drives.khv.torsion import Torsion, torsion

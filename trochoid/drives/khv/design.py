@@ -14,8 +14,7 @@ from trochoid.kinematics.curve import ArcLength
 from trochoid.kinematics.cycloid import Cycloid, Modification
 from trochoid.kinematics.train import Speeds, khv_train, speeds
 from trochoid.kinematics.types import Array
-from trochoid.scene import Scene
-from trochoid.scene.drive_khv import KhvDrive
+from trochoid.scene.drive_khv import KhvDrive, KhvScene
 
 if TYPE_CHECKING:
     from trochoid.geometry.mass import Solid
@@ -48,7 +47,7 @@ class Design:
     `hole_angles` of each distinct body.
     """
 
-    scene: Scene
+    scene: KhvScene
     flank: Cycloid
     modification: Modification
     pin_play: float
@@ -138,7 +137,7 @@ class Design:
         return crank * (inner - outer / self.flank.lobes) / (inner + outer)
 
 
-def design(scene: Scene) -> Design:
+def design(scene: KhvScene) -> Design:
     """Read the drive from a scene; nothing is checked here but what no later stage could name."""
     d = scene.drive
     flank = Cycloid(d.pins, d.lobes, d.pin_circle_radius, d.pin_radius, d.eccentricity)

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
+from trochoid.drives.exact import RPM, millimetres
 from trochoid.drives.khv.stages import Stages
 from trochoid.results.outcome import Quantity
-from trochoid.scene import Scene
-
-RPM = 2 * math.pi / 60
+from trochoid.scene.drive_khv import KhvScene
 
 ABSENT_EFFECTS = {
     "elastic_contact": (
@@ -87,9 +84,9 @@ def facts(stages: Stages) -> dict[str, Quantity]:
         "Pin circle radius R": _mm(drive.pin_circle_radius),
         "Pin radius r": _mm(drive.pin_radius),
         "Eccentricity e": _mm(drive.eccentricity),
-        "Discs": Quantity(f"{drive.discs} × {_shown(drive.face_width)} mm"),
+        "Discs": Quantity(f"{drive.discs} × {millimetres(drive.face_width)} mm"),
         "Output pins": Quantity(
-            f"{drive.output_pins.count} on R {_shown(drive.output_pins.circle_radius)} mm"
+            f"{drive.output_pins.count} on R {millimetres(drive.output_pins.circle_radius)} mm"
         ),
         "Input speed": Quantity(speed / RPM, "rpm"),
         "Output speed": Quantity(output_speed / RPM, "rpm"),
@@ -98,16 +95,11 @@ def facts(stages: Stages) -> dict[str, Quantity]:
     }
 
 
-def not_simulated(scene: Scene) -> dict[str, str]:
+def not_simulated(scene: KhvScene) -> dict[str, str]:
     """Return each effect that is not in the equations with what its absence means: unlisted ones first."""
     unlisted = {name: said for name, said in ABSENT_EFFECTS.items() if not scene.has(name)}
     return unlisted | NEVER_SIMULATED
 
 
 def _mm(length: float) -> Quantity:
-    return Quantity(float(_shown(length)), "mm")
-
-
-def _shown(length: float) -> str:
-    """Return a length in mm without the rounding that a conversion leaves."""
-    return f"{1e3 * length:.12g}"
+    return Quantity(float(millimetres(length)), "mm")

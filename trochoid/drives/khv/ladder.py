@@ -14,7 +14,7 @@ from trochoid.drives.khv.plan import STAGES_OF
 from trochoid.drives.khv.stages import FINEST, Solved, Stages, named_rung
 from trochoid.kinematics.errors import SceneError
 from trochoid.ladder import Ladder, Oracle, Pick, Rung
-from trochoid.scene import Scene
+from trochoid.scene.drive_khv import KhvScene
 
 if TYPE_CHECKING:
     from trochoid.drives.khv.bodies import Level
@@ -50,7 +50,7 @@ class Held(Stages):
         return self.make(self)
 
 
-def ladder(scene: Scene, clock: Clock) -> Ladder:
+def ladder(scene: KhvScene, clock: Clock) -> Ladder:
     """Return what may be climbed; raises SceneError for rigid discs, Infeasible."""
     if not scene.has("elastic_contact"):
         raise SceneError(

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from trochoid.drives.khv.estimate import scalar_error
 from trochoid.drives.khv.stages import Pair, Stages
@@ -13,16 +11,6 @@ from trochoid.results.outcome import Quantity
 
 if TYPE_CHECKING:
     from trochoid.drives.khv.series import Series
-
-ARCMIN = np.pi / 180 / 60
-RPM = 2 * np.pi / 60
-
-
-def exact(values: Mapping[str, tuple[float, str]]) -> Quantity:
-    """Return parts that rest on closed forms."""
-    return Quantity(
-        parts={name: Quantity(value, unit, 0.0, "exact") for name, (value, unit) in values.items()}
-    )
 
 
 def number(s: Stages, pair: Pair[float], unit: str, model: str | None = None) -> Quantity:

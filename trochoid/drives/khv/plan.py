@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from trochoid.plan import Plan, PlannedStage
-from trochoid.scene import Scene
+from trochoid.scene.drive_khv import KhvScene
 from trochoid.scene.effects import AnyEffect, Friction
 
 _CONTACT = ("kinematics", "geometry", "mesh", "bodies", "contact")
@@ -56,7 +56,7 @@ POSITION = {
 }  # seconds for 20 pins, 8 holes, 16 rollers and two discs
 
 
-def plan(scene: Scene, rung: str, facets: int) -> Plan:
+def plan(scene: KhvScene, rung: str, facets: int) -> Plan:
     """Return what a run would do; `facets` per lobe of the coarser of the two levels it would start with."""
     needed = {stage for name in scene.ask.quantities for stage in STAGES_OF[name]}
     if rung == "springs":

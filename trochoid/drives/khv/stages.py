@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 from trochoid.clock import Clock
 from trochoid.drives.khv.design import Design, design
 from trochoid.kinematics.errors import Infeasible, SceneError, TrochoidError
-from trochoid.scene import Scene
+from trochoid.scene.drive_khv import KhvScene
 
 if TYPE_CHECKING:
     from trochoid.drives.khv.bodies import Level
@@ -60,7 +60,7 @@ class Solved:
 class Stages:
     """What a scene's quantities are made from; every stage is a value, computed once."""
 
-    scene: Scene
+    scene: KhvScene
     clock: Clock
 
     @cached_property
@@ -251,7 +251,7 @@ class Stages:
             return found.map(lambda reactions: casing_vibration(self.design, reactions))
 
 
-def named_rung(scene: Scene) -> str | None:
+def named_rung(scene: KhvScene) -> str | None:
     """Return the contact model that the scene names, by its effects or by accuracy.model; None leaves the choice."""
     return scene.accuracy.model if scene.has("elastic_contact") else "springs"
 

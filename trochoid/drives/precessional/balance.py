@@ -9,8 +9,8 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
-from trochoid.drives.precessional.reactions import Model
 from trochoid.drives.precessional.mechanism import PrecessionalDrive, mass_moments
+from trochoid.drives.precessional.reactions import Model
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array
 

@@ -11,10 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from trochoid.drives.precessional.mechanism import PrecessionalDrive
+from trochoid.drives.precessional.reactions import Model, Reactions, inertia_couple, reactions
 from trochoid.dynamics.casing import Casing
 from trochoid.dynamics.newton_euler import RotatingMass, inertia_wrench
-from trochoid.drives.precessional.reactions import Model, Reactions, inertia_couple, reactions
-from trochoid.drives.precessional.mechanism import PrecessionalDrive
 from trochoid.dynamics.vibration import BAND, Point, Vibration, vibrate
 from trochoid.dynamics.wrench import Wrench, couple, total, wrench
 from trochoid.kinematics.spherical import rotation, turn
