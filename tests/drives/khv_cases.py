@@ -90,7 +90,9 @@ def level_of(made: Design, facets: int = 4) -> Level:
     key = (made.flank, holes, d.bore_radius, d.face_width, kind, facets)
     if key not in _LEVELS:
         try:
-            _LEVELS[key] = build_level(made, facets, meshes(made, facets))
+            _LEVELS[key] = build_level(
+                made, facets, meshes(made, facets), tangential=made.scene.friction is not None
+            )
         except TrochoidError:
             if facets >= 32:
                 raise

@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 
 from tests.drives.khv_cases import NO_PLAY, drive, level_of, scene, turn, without
+from trochoid.clock import Clock
+from trochoid.drives.khv.answers import QUANTITIES
 from trochoid.drives.khv.plan import STAGES_OF
 from trochoid.drives.khv.series import Series
+from trochoid.drives.khv.stages import Stages
 from trochoid.results import Outcome
 from trochoid.run import Run, plan
 from trochoid.scene.effects import EFFECTS
@@ -51,6 +54,21 @@ def test_clearance_not_listed_is_no_clearance(elastic: bool) -> None:
 def test_no_play_listed_is_no_clearance() -> None:
     """The effect "clearance" with all plays zero changes nothing."""
     assert outcome(*NO_PLAY).quantities == outcome(*NO_PLAY, effects=without("clearance")).quantities
+
+
+@pytest.mark.property
+def test_listed_friction_costs_nothing_until_an_answer_follows_it() -> None:
+    """Discs are pressed along their flanks only for answers with friction; asked for later, these are the same."""
+    asked, other = (
+        Stages(scene(*QUICK, f'ask.quantities=["{name}"]', 'accuracy.model="level0"'), Clock())
+        for name in ("efficiency", "torsional_stiffness")
+    )
+    assert asked.contact.level is not None
+    assert asked.contact.level.rubs
+    assert other.contact.level is not None
+    assert not other.contact.level.rubs
+    assert QUANTITIES["efficiency"](other) == QUANTITIES["efficiency"](asked)
+    assert QUANTITIES["torsional_stiffness"](other) == QUANTITIES["torsional_stiffness"](asked)
 
 
 @pytest.mark.property

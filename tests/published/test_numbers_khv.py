@@ -87,6 +87,9 @@ def test_half_of_the_pins_can_carry() -> None:
         "geometric": 10.0,
         "loaded_max": 10.0,
     }
+    carrying = [getattr(parts[f"output_pins_{name}"], "value", None) for name in ("mean", "least", "most")]
+    count = run.scene.drive.output_pins.count
+    assert carrying == [count / 2, count // 2, (count + 1) // 2]
 
 
 @pytest.mark.published

@@ -68,12 +68,19 @@ def geometry_quality(s: Stages) -> Quantity:
 
 
 def contact_ratio(s: Stages) -> Quantity:
-    """Pins in mesh by geometry, under load when contacts are solved, and the pressure angles."""
+    """Pins in mesh and output pins that carry, by geometry; pins under load when contacts are solved; the
+    pressure angles.
+    """
     from trochoid.kinematics.meshing import contact_ratio as geometric
+    from trochoid.kinematics.parallel_crank import loaded_output_pins
 
     found = geometric(s.feasible.flank)
+    carrying = loaded_output_pins(s.design.drive.output_pins.count)
     parts = {
         "geometric": Quantity(found.mean, "", 0.0, "exact"),
+        "output_pins_mean": Quantity(carrying.mean, "", 0.0, "exact"),
+        "output_pins_least": Quantity(carrying.least, "", 0.0, "exact"),
+        "output_pins_most": Quantity(carrying.most, "", 0.0, "exact"),
         "pressure_angle_min": Quantity(float(np.degrees(found.pressure_angle_min)), "deg", 0.0, "exact"),
         "pressure_angle_mean": Quantity(float(np.degrees(found.pressure_angle_mean)), "deg", 0.0, "exact"),
     }

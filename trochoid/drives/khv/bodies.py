@@ -25,6 +25,11 @@ class Level:
     bodies: tuple[Body, ...]
     elastic: tuple[ElasticBody, ...]
 
+    @property
+    def rubs(self) -> bool:
+        """Whether the discs were pressed along their surfaces too."""
+        return all(body.compliance.tangential is not None for body in self.elastic)
+
 
 def outlines(design: Design, facets_per_lobe: int) -> tuple[Outline, ...]:
     """Return the outline of each distinct disc."""
@@ -36,9 +41,10 @@ def meshes(design: Design, facets_per_lobe: int) -> tuple[Mesh, ...]:
     return tuple(mesh_outline(outline) for outline in outlines(design, facets_per_lobe))
 
 
-def build_level(design: Design, facets_per_lobe: int, made: tuple[Mesh, ...]) -> Level:
-    """Factor the discs and press them at every station, along the surface too where the scene has friction."""
-    tangential = design.scene.friction is not None
+def build_level(
+    design: Design, facets_per_lobe: int, made: tuple[Mesh, ...], tangential: bool = False
+) -> Level:
+    """Factor the discs and press them at every station; with `tangential` along the surface too, for friction."""
     bodies = tuple(build_body(mesh, plane(design)) for mesh in made)
     elastic = tuple(
         ElasticBody(

@@ -65,9 +65,10 @@ def plan(scene: KhvScene, rung: str, facets: int) -> Plan:
     stations = facets * (d.lobes + 0.6 * d.output_pins.count + 2) * (1 if rung != "springs" else 0)
     contacts = d.discs * (d.pins + d.output_pins.count + d.eccentric_bearing.rollers) / 88
     positions = scene.ask.positions + 1
+    rubs = scene.friction is not None and {"torsion", "losses"} & needed
     seconds = {
         "mesh": 1e-4 * stations + 0.15,
-        "bodies": (6e-3 if scene.friction is None else 11e-3) * stations + 1.2e-6 * stations**2,
+        "bodies": (11e-3 if rubs else 6e-3) * stations + 1.2e-6 * stations**2,
         "contact": 2 * positions * contacts * POSITION[rung],
         "torsion": contacts * (3.0 if scene.friction is not None else 0.5),
         "losses": contacts * 0.7,

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from trochoid.drives.khv.seat import SeatStiffness
     from trochoid.drives.khv.series import Series
     from trochoid.drives.khv.vibration import CasingVibration
+    from trochoid.fem.position import ElasticBody
     from trochoid.geometry.mesh import Mesh
 
 COARSEST = 8  # facets per lobe: with 6 the order of convergence is not yet seen, and the estimate misleads
@@ -122,7 +123,26 @@ class Stages:
         with self.clock.stage("bodies"):
             from trochoid.drives.khv.bodies import build_level
 
-            return build_level(self.design, facets, meshes)
+            return build_level(self.design, facets, meshes, tangential=self.asks_friction)
+
+    @property
+    def asks_friction(self) -> bool:
+        """Whether friction is listed and an answer follows it: only then discs are pressed along their flanks."""
+        from trochoid.drives.khv.plan import STAGES_OF
+
+        asked = {stage for name in self.scene.ask.quantities for stage in STAGES_OF[name]}
+        return self.scene.friction is not None and bool({"torsion", "losses"} & asked)
+
+    def rubbing(self, level: Level | None) -> tuple[ElasticBody, ...]:
+        """Return the discs of a level for answers that follow friction, pressed along their flanks if it is listed."""
+        if level is None:
+            return ()
+        if self.scene.friction is None or level.rubs:
+            return level.elastic
+        with self.clock.stage("bodies"):
+            from trochoid.drives.khv.bodies import build_level
+
+            return build_level(self.design, level.facets_per_lobe, level.meshes, tangential=True).elastic
 
     def series(self, level: Level | None, rung: str | None = None) -> Series:
         """Solve all positions on a level, or with rigid discs; on the scene's own rung unless another is named."""
@@ -181,27 +201,29 @@ class Stages:
     def load_path(self) -> Pair[LoadPath]:
         """Torque-twist loops at held input; on the coarser level at the first angle only, which tells the error."""
         solved, rung = self.contact, self.rung
+        bodies, coarse = self.rubbing(solved.level), self.rubbing(solved.coarse_level)
         with self.clock.stage("torsion"):
             from trochoid.drives.khv.load_path import held_angles, load_path
 
             angles = held_angles(self.design)
-            fine = load_path(self.design, rung, () if solved.level is None else solved.level.elastic, angles)
+            fine = load_path(self.design, rung, bodies, angles)
             if solved.coarse_level is None:
                 return Pair(fine, None)
-            return Pair(fine, load_path(self.design, rung, solved.coarse_level.elastic, angles[:1]))
+            return Pair(fine, load_path(self.design, rung, coarse, angles[:1]))
 
     @cached_property
     def losses(self) -> Pair[Running]:
         """The running drive with friction, at some positions of a turn."""
         solved, rung = self.contact, self.rung
+        bodies, coarse = self.rubbing(solved.level), self.rubbing(solved.coarse_level)
         with self.clock.stage("losses"):
             from trochoid.drives.khv.running import run, running_angles
 
             angles = running_angles(self.scene.accuracy.tolerance)
-            fine = run(self.design, rung, () if solved.level is None else solved.level.elastic, angles)
+            fine = run(self.design, rung, bodies, angles)
             if solved.coarse_level is None:
                 return Pair(fine, None)
-            return Pair(fine, run(self.design, rung, solved.coarse_level.elastic, angles))
+            return Pair(fine, run(self.design, rung, coarse, angles))
 
     @cached_property
     def bearing(self) -> Pair[SeatStiffness]:
