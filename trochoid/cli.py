@@ -92,7 +92,13 @@ def commands() -> None:
 def new(kind: str) -> None:
     """Print a commented starter scene.
 
-    KIND is the kind of drive: khv (planetary-cycloid reducer).
+    \b
+    KIND is the kind of drive:
+    khv            planetary-cycloid reducer
+    rv             2K-V: involute stage, crankshafts, cycloid discs
+    planetary      involute 2K-H: sun, planets, ring, carrier
+    precessional   nutating satellite with sphere teeth
+    indexer        spherical planetary-pin indexer
     """
     from trochoid.starter import starter
 

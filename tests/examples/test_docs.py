@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from trochoid.scene.effects import EFFECTS
-from trochoid.scene.needs import NEEDS
+from trochoid.scene.needs import KINDS, NEEDS
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 @pytest.mark.property
@@ -46,20 +46,26 @@ def test_bare_names_of_errata_tests_exist() -> None:
     assert not [name for name in names if f"def {name}(" not in source]
 
 
+def rows(page: str) -> dict[str, str]:
+    """Return each name in the first column of a page's tables with its row."""
+    lines = [line for line in (ROOT / "docs" / page).read_text().splitlines() if line.startswith("| `")]
+    return {name: line for line in lines for name in re.findall(r"`(\w+)`", line.split("|")[1])}
+
+
 @pytest.mark.property
-def test_scene_page_names_every_effect_and_quantity() -> None:
-    """The tables of docs/scene.md are complete, and name no effect that a quantity does not need."""
-    page = (ROOT / "docs" / "scene.md").read_text()
-    rows = {
-        name: row
-        for row in page.splitlines()
-        if row.startswith("| `")
-        for name in re.findall(r"`(\w+)`", row)
-    }
-    assert set(EFFECTS) <= rows.keys()
-    for quantity, effects in NEEDS["khv"].items():
-        needs = rows[quantity].rsplit("|", 2)[1]
-        assert set(re.findall(r"`(\w+)`", needs)) == set(effects)
+def test_scene_page_names_every_effect_and_kind() -> None:
+    """The tables of docs/scene.md are complete."""
+    assert {*EFFECTS, *KINDS} <= rows("scene.md").keys()
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("kind", KINDS)
+def test_page_of_a_drive_names_every_quantity(kind: str) -> None:
+    """The tables of docs/drives/KIND.md are complete, and name the effects that a quantity needs and no others."""
+    found = rows(f"drives/{kind}.md")
+    for quantity, effects in NEEDS[kind].items():
+        needs = found[quantity].rsplit("|", 2)[1]
+        assert set(re.findall(r"`(\w+)`", needs)) == set(effects), quantity
 
 
 @pytest.mark.property
