@@ -56,8 +56,8 @@ def test_plane_plot_has_its_curves_in_order() -> None:
 def test_spatial_plot_is_in_the_units_of_its_axes() -> None:
     """Lengths are shown in mm; what belongs together has one colour and one entry in the legend."""
     spec = plot_spec(SPACE)
-    cone, axis = spec["data"]
-    assert (cone["type"], axis["type"]) == ("mesh3d", "scatter3d")
+    axis, cone = spec["data"]
+    assert (axis["type"], cone["type"]) == ("scatter3d", "mesh3d")
     assert max(numbers(cone["x"])) == pytest.approx(64.0)
     assert cone["i"] == [0, 0, 0, 1]
     assert cone["color"] == axis["line"]["color"]

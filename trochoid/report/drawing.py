@@ -44,6 +44,7 @@ def drawing_spec(drawing: Drawing) -> dict[str, Any]:
     frames = drawing.frames
     low, high = _bounds(frames[0])
     width = float(max(high - low))
+    forces = any(frame.arrows for frame in frames)
     largest = max((arrows.magnitude(a) for frame in frames for a in frame.arrows), default=0.0)
     colors = _colors(frames[0])
     traces = _line_traces(frames, colors)
@@ -54,7 +55,7 @@ def drawing_spec(drawing: Drawing) -> dict[str, Any]:
         "layout": _layout(low * _MM, high * _MM, 0.04 * width * _MM),
         "moving": [_motion(index, trace) for index, trace in enumerate(traces) if trace.moves],
         "labels": [frame.label for frame in frames],
-        "captions": [arrows.summary(frame) for frame in frames],
+        "captions": [arrows.summary(frame) if forces else "" for frame in frames],
         "scale": _scale(_LONGEST * width * _MM, largest),
     }
 

@@ -17,10 +17,10 @@ _NAMES = ("x", "y", "z")
 
 def plot_spec(plot: Plot) -> dict[str, Any]:
     """Return a picture as plotly draws it; legend entries of a group switch all of it."""
-    things: tuple[PlotSurface | PlotCurve, ...] = (*plot.surfaces, *plot.curves)
+    things: tuple[PlotSurface | PlotCurve, ...] = (*plot.curves, *plot.surfaces)
     groups = [thing.group or thing.name for thing in things]
     names = list(dict.fromkeys(groups))
-    colors = dict(zip(names, style.palette(len(names)), strict=True))
+    colors = dict(zip(names, style.distinct(len(names)), strict=True))
     scale = np.array([axis_unit(axis.units).factor for axis in plot.axes])
     traces, shown = [], set[str]()
     for thing, group in zip(things, groups, strict=True):

@@ -41,6 +41,19 @@ def palette(count: int) -> list[str]:
     return ["#" + "".join(f"{round(c):02x}" for c in rgb) for rgb in zip(*channels, strict=True)]
 
 
+def distinct(count: int) -> list[str]:
+    """Return `count` colours for things without an order: the categories, then these in lighter tints."""
+    tints = [list(CATEGORIES)]
+    while sum(map(len, tints)) < count:
+        tints.append([_lighter(color) for color in tints[-1]])
+    return [color for tint in tints for color in tint][:count]
+
+
+def _lighter(color: str) -> str:
+    channels = [int(color[i : i + 2], 16) for i in (1, 3, 5)]
+    return "#" + "".join(f"{round(0.5 * (c + 245)):02x}" for c in channels)
+
+
 def transparent(color: str, alpha: float) -> str:
     """Return the "#rrggbb" `color` as rgba with the given opacity."""
     return f"rgba({int(color[1:3], 16)},{int(color[3:5], 16)},{int(color[5:7], 16)},{alpha})"
