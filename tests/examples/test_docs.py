@@ -36,16 +36,6 @@ def test_tests_that_are_named_exist(page: Path) -> None:
     assert not missing
 
 
-@pytest.mark.property
-def test_bare_names_of_errata_tests_exist() -> None:
-    """The table of errata names tests of one file."""
-    source = (ROOT / "tests" / "published" / "test_errata_khv.py").read_text()
-    errata = (ROOT / "docs" / "sources.md").read_text().split("## Errata")[1]
-    names = re.findall(r"`(test_\w+)`", errata)
-    assert len(names) >= 4
-    assert not [name for name in names if f"def {name}(" not in source]
-
-
 def rows(page: str) -> dict[str, str]:
     """Return each name in the first column of a page's tables with its row."""
     lines = [line for line in (ROOT / "docs" / page).read_text().splitlines() if line.startswith("| `")]

@@ -107,6 +107,14 @@ def test_ratios_from_120_to_60_degrees() -> None:
 
 
 @pytest.mark.published
+def test_peaks_fall_with_the_swing() -> None:
+    """Right as printed: a smaller swing has smaller peaks of ω, ε and N; for cusps with i = 4, in steps of 2°."""
+    found = [peaks(hypo_cusp(swing)) for swing in np.linspace(120.0, 60.0, 31)]
+    for name in ("velocity", "acceleration", "power"):
+        assert np.all(np.diff([getattr(top, name) for top in found]) < 0.0)
+
+
+@pytest.mark.published
 def test_both_constants_below_the_geneva_wheels() -> None:
     """Printed: B and C are 1.2 times less; right for the cusp: 1.28 and 1.12."""
     wheel, pin = similarity(geneva(90 * DEGREE)), similarity(hypo_cusp(90.0))

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from trochoid.fem.complementarity import Group, Problem, Solution, solve, tangent
 from trochoid.kinematics.cycloid import Cycloid, Modification, gap, gap_first_order
+from trochoid.kinematics.train import khv_train, speeds
 from trochoid.kinematics.types import Array
+from trochoid.run import Run
+from trochoid.scene import load
 
+EXAMPLE = Path(__file__).parents[2] / "examples" / "cycloid.toml"
 RV40 = Cycloid(40, 39, 0.064, 0.003, 0.0013)
 GROUND = Modification(equidistant=1e-5, radial=-2e-5)
 TORQUE, CRANK, STIFFNESS = 206.0, 0.2, 2e8  # N·m per disc, rad, N/m
@@ -63,3 +69,42 @@ def test_closed_form_of_the_stiffness() -> None:
     problem = Problem((group,), np.zeros((200, 200)), np.zeros((1, 1)), np.array([1.0]))
     found = float(tangent(problem, solve(problem))[0, 0])
     assert found == pytest.approx(STIFFNESS * (flank.eccentricity * flank.lobes) ** 2 * 200 / 4, rel=2e-2)
+
+
+@pytest.mark.published
+@pytest.mark.parametrize("lobes", [3, 33, 191])
+def test_ratios_of_the_textbook(lobes: int) -> None:
+    """Textbook, 1.1 and 1.4: 3 … 191 in one stage, 33 in Fig. 5; with one pin more u is the number of lobes."""
+    assert speeds(khv_train(lobes + 1, lobes)).ratio == -lobes
+
+
+@pytest.mark.published
+def test_efficiency_of_the_example() -> None:
+    """Textbook, 1.1: 0.80 … 0.97; the example, with rigid discs and 0.05 at pins and rollers, lies inside."""
+    rigid = ('ask.quantities=["efficiency"]', 'accuracy.model="springs"', 'effects=[{type="friction"}]')
+    value = Run(load(EXAMPLE, (*rigid, "ask.positions=20"))).efficiency.value
+    assert isinstance(value, float)
+    assert 0.80 < value < 0.97
+
+
+@pytest.mark.published
+@pytest.mark.parametrize("eccentricity", [1e-5, 0.5e-3, 1.3e-3])
+def test_largest_force_in_closed_form(eccentricity: float) -> None:
+    """Sources §3: F_max ≈ 4T/(K R z_c) of 40 pins: within 0.4 % over a pitch, for K from 0.006 to 0.81."""
+    flank = Cycloid(40, 39, 0.064, 1e-3, eccentricity)
+    pitch = 2 * np.pi / flank.pins
+    for crank in np.linspace(0.0, pitch, 9):
+        force = _springs(flank, float(crank), TORQUE, np.zeros(40)).forces[0].max()
+        assert force == pytest.approx(4 * TORQUE / (flank.trochoid_ratio * 0.064 * 39), rel=4e-3)
+
+
+@pytest.mark.published
+def test_pin_forces_repeat() -> None:
+    """Sources §3: the set of pin forces repeats every 360°/z_p of the crank, and not after half of that."""
+    pitch = 2 * np.pi / RV40.pins
+    here, half, later = (
+        np.sort(_springs(RV40, CRANK + share * pitch, TORQUE, np.zeros(40)).forces[0][:, 0])
+        for share in (0.0, 0.5, 1.0)
+    )
+    assert later == pytest.approx(here, abs=1e-9)
+    assert np.abs(half - here).max() > 1.0

@@ -14,6 +14,7 @@ from trochoid.geometry.blocking_line import coaxial_line
 from trochoid.geometry.planetary import PlanetarySet, planetary
 from trochoid.geometry.planetary_quality import Limits, least_margin, quality
 from trochoid.geometry.planetary_table import Table, table
+from trochoid.kinematics.involute import inverse_involute, involute
 from trochoid.kinematics.involute_measure import degrees
 from trochoid.kinematics.shaper import Shaper
 
@@ -214,6 +215,38 @@ def test_contact_ratio_of_1_4_cannot_hold_for_the_outer_mesh() -> None:
     set_ = planetary(SOURCE, line.shifts(x1))
     assert np.max(set_.outer.contact_ratio(*set_.tips[:2])) == pytest.approx(1.303, abs=5e-4)
     assert coaxial_line(SOURCE, SUMS, Limits(contact_ratio=1.4)).stretches == ()
+
+
+@pytest.mark.published
+def test_indices_of_the_inner_pair() -> None:
+    """Erratum: a_w has (z2 − z1) and x_d = x2 − x1 for planet and ring; 10.4 mm and 0.134 for 52 mm and 1.134."""
+    inner = planetary(SOURCE).inner
+    z1, z2, z3 = SOURCE.teeth
+    x1, x2, x3 = SOURCE.shifts
+
+    def distance(teeth: int) -> float:
+        return 0.5 * SOURCE.module * teeth * math.cos(SOURCE.pressure_angle) / math.cos(angle)
+
+    # the pressure angle that the shifts ask for, without play: inv α_w = inv α + 2 x_d tan α/z_d
+    def asked(shift: float, teeth: int) -> float:
+        tangent = math.tan(SOURCE.pressure_angle)
+        return float(inverse_involute(float(involute(SOURCE.pressure_angle)) + 2.0 * shift * tangent / teeth))
+
+    angle = asked(x3 - x2, z3 - z2)
+    assert distance(z3 - z2) == pytest.approx(52e-3, abs=1e-6)
+    assert distance(z2 - z1) == pytest.approx(10.4e-3, abs=1e-6)
+    assert angle == pytest.approx(float(inner.operating_angle), abs=1e-4)
+    angle = asked(x2 - x1, z3 - z2)
+    assert distance(z3 - z2) < 50.3e-3
+
+
+@pytest.mark.published
+def test_claims_that_are_right() -> None:
+    """Table 1, "fulfilled": R_ol > 0 for all three, x > x_min for sun and planet; x_min = 1 − (z/2) sin²α."""
+    assert all(rho > 0.0 for rho in PRINTED.rho_l)
+    for x, low, teeth in zip(SOURCE.shifts, PRINTED.least_shift, SOURCE.teeth, strict=False):
+        assert x > low
+        assert low == pytest.approx(1.0 - 0.5 * teeth * math.sin(SOURCE.pressure_angle) ** 2, abs=1e-12)
 
 
 @pytest.mark.published

@@ -25,8 +25,9 @@ class Row:
 
     `published` is as printed; `computed` returns as many values in the same unit (rad for angles written 28°43′40″),
     one value that stands for all, or a Finding; None where the number is not computed.  `how` says what counts as
-    reproduced: "rounded" or "cut" to the printed digits, "inside" the two printed bounds, "above" the printed one, or
-    a "claim".  `reason` says why a number is known to differ, or why it is not computed; `test` is "file.py::test_name".
+    reproduced: "rounded" or "cut" to the printed digits, "inside" the two printed bounds, "above" the printed one,
+    or a "claim".  `reason` says why a number is known to differ, or why it is not computed; `test` is
+    "file.py::test_name".
     """
 
     where: str
@@ -42,17 +43,17 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Erratum:
-    """A misprint: the printed form, the right one, what both come to where that is one number, and the test.
+    """A misprint: the printed form, the right one, and the test, "file.py::test_name", that shows the former failing.
 
-    The test, "file.py::test_name", shows the printed form failing.
+    `gives` returns what both come to for one quantity, named in `of` with its unit.
     """
 
     where: str
     printed: str
     right: str
     test: str
+    of: str = ""
     gives: Callable[[], tuple[Value, Value]] | None = None
-    unit: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -117,39 +117,41 @@ ERRATA = (
     Erratum(
         "before (6)",
         "velocity of the pitch point relative to the planet's centre `ω_g e`",
-        "`ω_g r_g`, as (6) has it; the ratio by (6) to (8)",
+        "`ω_g r_g`, as (6) has it",
         f"{TESTS}::test_relative_velocity_at_the_pitch_point",
+        "ratio by (6) to (8)",
         lambda: (float(_with_slip_radius(E)), _with_slip_radius(R_G)),
     ),
     Erratum(
         "after (8)",
         "`r_a`, `r_b` of sun and pins in the formula of `ω_g`",
-        "`r_A = r_f − L`, `r_B = r_f + L`, `L = r_a + r_g`; the ratio",
+        "`r_A = r_f − L`, `r_B = r_f + L`, `L = r_a + r_g`",
         f"{TESTS}::test_radii_of_the_planet_speed",
-        lambda: (
-            float(_ratio(_planet_formula(R_A, R_B))),
-            _ratio(_planet_formula(R_F - ARM, R_F + ARM)),
-        ),
+        "ratio by (6)",
+        lambda: (float(_ratio(_planet_formula(R_A, R_B))), _ratio(_planet_formula(R_F - ARM, R_F + ARM))),
     ),
     Erratum(
         "after (8)",
-        "a factor `r_a + r_g` in the formula of `ω_h`: the ratio changes with the unit of length (here mm)",
-        "`ω_a r_a e/(r_f r_g + (r_a + r_g) e)`; `ω_h/ω_a`",
+        "a factor `r_a + r_g` in the formula of `ω_h`: the ratio changes with the unit of length",
+        "`ω_a r_a e/(r_f r_g + (r_a + r_g) e)`",
         f"{TESTS}::test_spurious_factor_of_the_carrier_speed",
+        "`ω_h/ω_a`, lengths in mm",
         lambda: (_carrier_formula(ARM), _carrier_formula(Fraction(1))),
     ),
     Erratum(
         "before (3)",
         "`ω_f^b = ω_b^b − ω_f^b`, which would stop the disc",
-        "the left side is `ω_b^f`; disc over sun",
+        "the left side is `ω_b^f`",
         f"{TESTS}::test_name_of_the_ring_speed_seen_from_the_disc",
+        "disc over sun",
         lambda: (_turning().members["ring"] / 2, _turning().members["disc"]),
     ),
     Erratum(
         "(6)–(8)",
-        "no word on signs: with the algebraic `ω_g` of (1) to (5) the right side of (6) over `ω_a r_a` is not 1",
+        "no word on signs: `ω_g` algebraic, as in (1) to (5)",
         "(6) to (8) count `ω_g` against `ω_a` and `ω_h`",
         f"{TESTS}::test_sign_of_the_planet_speed",
+        "right side of (6) over its left side",
         lambda: (float(_right_side_of_6(1)), _right_side_of_6(-1)),
     ),
 )
@@ -164,9 +166,9 @@ SOURCE = Source(
     1,
     "Kinematics of the 2K-V drive",
     "L. P. Senchurin, *On the kinematics of the planetary 2K-V drive* (in Russian), 2019, doi 10.5862/TMM.44.1",
-    "Letters as there: sun a, planet g, disc f, pins b, carrier h. The text has formulas and no example; their numbers are "
-    "for teeth 12/36/39/40. For other numbers the formulas are compared with the constraint matrix in "
-    "`tests/published/test_sources_rv.py::test_formulas`.",
+    "Letters as there: sun a, planet g, disc f, pins b, carrier h. The text has formulas and no example; "
+    "their numbers are for teeth 12/36/39/40. For other numbers the formulas are compared with the "
+    "constraint matrix in `tests/published/test_sources_rv.py::test_formulas`.",
     ROWS,
     ERRATA,
 )

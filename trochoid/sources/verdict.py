@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from trochoid.results import text
-from trochoid.sources.numeral import Numeral, numeral
+from trochoid.sources.numeral import Numeral, numeral, signed
 from trochoid.sources.row import Erratum, Finding, How, Row, Value
 
 State = Literal["same", "differs", "not computed", "unexplained"]
@@ -20,9 +21,12 @@ _SAME: dict[How, str] = {
     "claim": "true",
 }
 _EXACT = "exactly"
+NOTHING = 1e-9  # what is left of a zero
 _JUDGES: dict[How, Callable[[list[Numeral], Sequence[Value]], bool]] = {
     "rounded": lambda printed, found: all(p.same_digits(v) for p, v in zip(printed, found, strict=True)),
-    "cut": lambda printed, found: all(p.same_digits(v, cut=True) for p, v in zip(printed, found, strict=True)),
+    "cut": lambda printed, found: all(
+        p.same_digits(v, cut=True) for p, v in zip(printed, found, strict=True)
+    ),
     "inside": lambda printed, found: all(printed[0].value <= v <= printed[1].value for v in found),
     "above": lambda printed, found: all(v > printed[0].value for v in found),
 }
@@ -51,6 +55,8 @@ def judged(row: Row) -> Judged:
     found = row.computed()
     if isinstance(found, Finding):
         return _judgement(row, published, found.shown, "–", found.true, _SAME["claim"])
+    if not all(math.isfinite(v) for v in found):
+        return _judgement(row, published, "not finite", "–", False, "")
     printed = [numeral(each) for each in row.published]
     if row.how in ("inside", "above"):
         shown = _joined([text.number(float(v), 4) for v in found])
@@ -73,7 +79,9 @@ def _judgement(row: Row, published: str, shown: str, off: str, reproduced: bool,
     if row.reason and not reproduced:
         word = "false" if row.how == "claim" else "differs"
         return Judged(row, published, shown, off, f"{word}: {row.reason}", "differs")
-    wrong = "unexplained difference" if not reproduced else f"reproduced, though it should differ: {row.reason}"
+    wrong = (
+        "unexplained difference" if not reproduced else f"reproduced, though it should differ: {row.reason}"
+    )
     return Judged(row, published, shown, off, wrong, "unexplained")
 
 
@@ -81,11 +89,15 @@ def both_forms(erratum: Erratum) -> tuple[str, str]:
     """What the printed and the right form come to, as texts; empty where that is not one number."""
     if erratum.gives is None:
         return "", ""
-    printed, right = (
-        str(v).replace("-", "−") if not isinstance(v, float) else text.number(v, 5) for v in erratum.gives()
-    )
-    unit = f" {erratum.unit}" if erratum.unit else ""
-    return printed + unit, right + unit
+    printed, right = (_plain(value) for value in erratum.gives())
+    return printed, right
+
+
+def _plain(value: Value) -> str:
+    """A number that has no printed one beside it."""
+    if not isinstance(value, float):
+        return signed(str(value))
+    return text.number(0 if abs(value) < NOTHING else value, 5)
 
 
 def _printed(row: Row) -> str:
