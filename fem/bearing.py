@@ -4,7 +4,8 @@ The outer ring stands still, the inner one is moved by `(x, y, tilt_x, tilt_y)`:
 x and y axes through the bearing centre, right-handed.  A load is what the inner ring passes to the outer one:
 `(F_x, F_y, M_x, M_y)`, the gradient of the elastic energy, so the stiffness is symmetric and positive
 semi-definite by construction.  A cylindrical bearing passes neither axial force nor torque.  Roller profile,
-roller tilt on its own, cage and centrifugal force of the rollers are not in the model.
+roller tilt on its own, cage and centrifugal force of the rollers are not in the model.  Axial shift, contact angles and
+profiles are in `rolling_roller`, with this law.
 """
 
 from __future__ import annotations
@@ -27,6 +28,12 @@ def iso16281_constant(length: float) -> float:
     together are 2, so the factor to SI is 10⁶.
     """
     return float(35948.0e6 * float(length) ** (8.0 / 9.0))
+
+
+def line_contact(deflection: Array, constant: float) -> tuple[Array, Array]:
+    """Return loads (…,) and their derivatives of `Q = c·δ^(10/9)` at deflections (…,); open where negative."""
+    pressed = np.maximum(deflection, 0.0)
+    return constant * pressed**EXPONENT, EXPONENT * constant * pressed ** (EXPONENT - 1.0)
 
 
 @dataclass(frozen=True)
@@ -107,9 +114,7 @@ def load_distribution(
     arms = _arms(bearing, roller_angle0)
     q = np.asarray(displacement, dtype=np.float64)
     deflection = arms @ q - 0.5 * bearing.clearance
-    pressed = np.maximum(deflection, 0.0)
-    loads = bearing.slice_constant * pressed**EXPONENT
-    rate = EXPONENT * bearing.slice_constant * pressed ** (EXPONENT - 1.0)
+    loads, rate = line_contact(deflection, bearing.slice_constant)
     shape = (bearing.rollers, bearing.slices)
     return BearingState(
         displacement=frozen(q),
@@ -150,9 +155,10 @@ def seated_stiffness(
 
 
 def six_by_six(plane: Array) -> Array:
-    """Return a (4, 4) stiffness on (x, y, tilt_x, tilt_y) as (6, 6) on (x, y, z, tilt_x, tilt_y, spin)."""
+    """Return a stiffness as (6, 6) on (x, y, z, tilt_x, tilt_y, spin): given (4, 4) without z, or (5, 5) with it."""
     full = np.zeros((6, 6))
-    full[np.ix_((0, 1, 3, 4), (0, 1, 3, 4))] = plane
+    held = (0, 1, 3, 4) if len(plane) == 4 else (0, 1, 2, 3, 4)
+    full[np.ix_(held, held)] = plane
     return frozen(full)
 
 

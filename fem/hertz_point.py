@@ -36,7 +36,7 @@ class PointContact:
         ISO/TS 16281: c = 1.48·E/(1−ν²)·[K (Σρ/(χ² E))^(1/3)]^(−3/2) and s = c^(−2/3); `factor` stands for 1.48.
         """
         shape = self.first * (self.curvature_sum / (self.ratio**2 * self.second)) ** (1.0 / 3.0)
-        return shape / (2.0 * self.modulus * factor) ** (2.0 / 3.0)
+        return float(shape / (2.0 * self.modulus * factor) ** (2.0 / 3.0))
 
     def semi_axes(self, load: Array) -> tuple[Array, Array]:
         """Return the larger and the smaller semi-axis (…,) in m under loads (…,) in N."""
