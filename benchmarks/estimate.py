@@ -10,9 +10,9 @@ import trochoid
 from benchmarks import disc
 from benchmarks.run import SCENE
 from benchmarks.table import Row, Table
+from trochoid.drives.choosing import COARSEST
 from trochoid.drives.khv.estimate import position_errors
 from trochoid.drives.khv.series import Series
-from trochoid.drives.khv.stages import COARSEST
 from trochoid.kinematics.types import Array
 
 # the first two are those that a run begins with; the third gives the true error of the second

@@ -1,18 +1,22 @@
-"""Vibration velocity of a rigid casing under the vector sum of all that members put on it."""
+"""Vibration velocity of a casing under all that members put on it: rigid, under their vector sum, or elastic."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from trochoid.dynamics.casing import Casing, Triple, follow, matrices
 from trochoid.dynamics.modes import natural_modes
 from trochoid.dynamics.spectrum import harmonics
-from trochoid.dynamics.wrench import Wrench, moved
+from trochoid.dynamics.wrench import Wrench, moved, total
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, ComplexArray, frozen
+
+if TYPE_CHECKING:
+    from trochoid.dynamics.structure import Structure
 
 BAND = (10.0, 1000.0)
 
@@ -50,24 +54,28 @@ class Vibration:
 
 
 def vibrate(
-    casing: Casing,
-    load: Wrench,
+    casing: Casing | Structure,
+    load: Wrench | Mapping[str, Wrench],
     base_frequency: float,
     points: Sequence[Point],
     band: tuple[float, float] = BAND,
 ) -> Vibration:
     """Return the steady vibration under a periodic `load` whose record lasts 1/`base_frequency` seconds.
 
-    Lines h·base_frequency below Nyquist's, no others; the mean is static and no vibration.  Raises for a
-    frequency that is not positive, no points, fewer than 3 positions, and an excited resonance without
-    damping.
+    A rigid casing feels the vector sum of its loads, wherever they act; an elastic one (`structure`) is told where:
+    a wrench by the name of each seat, and its points are those that it is read at.  Lines h·base_frequency below
+    Nyquist's, no others; the mean is static and no vibration.  Raises for a frequency that is not positive, no
+    points, fewer than 3 positions, and an excited resonance without damping.
     """
     if not (np.isfinite(base_frequency) and base_frequency > 0.0) or not points:
         raise TrochoidError(
             f"vibration needs a speed above 0 and at least one point, given {base_frequency} Hz and "
             f"{len(points)} points"
         )
-    at_center = moved(load, casing.center)
+    if not isinstance(casing, Casing):
+        return _elastic(casing, load, base_frequency, points, band)
+    whole = load if isinstance(load, Wrench) else total(tuple(load.values()))
+    at_center = moved(whole, casing.center)
     lines = harmonics(np.concatenate([at_center.force, at_center.moment], axis=1))[1:]
     frequencies: Array = base_frequency * np.arange(1.0, len(lines) + 1.0)
     mass, damping, stiffness = matrices(casing)
@@ -75,6 +83,38 @@ def vibrate(
     maps = np.stack([follow(point.position, casing.center) for point in points])
     velocity = np.einsum("pij,fj->pif", maps, motion)
     return _evaluate(tuple(points), frequencies, velocity, band, natural_modes(mass, stiffness).hertz)
+
+
+def _elastic(
+    structure: Structure,
+    load: Wrench | Mapping[str, Wrench],
+    base_frequency: float,
+    points: Sequence[Point],
+    band: tuple[float, float],
+) -> Vibration:
+    from trochoid.dynamics.structure import loads_on, velocities
+
+    if isinstance(load, Wrench):
+        raise TrochoidError(
+            "an elastic casing must be told where its loads act: give a wrench by the name of each seat, of "
+            f"{', '.join(structure.seats)}"
+        )
+    unread = [point.name for point in points if point.name not in structure.points]
+    if unread:
+        raise TrochoidError(
+            f"the elastic casing is not read at {', '.join(unread)}; its points are {', '.join(structure.points)}"
+        )
+    lines = harmonics(loads_on(structure, load))[1:]
+    frequencies: Array = base_frequency * np.arange(1.0, len(lines) + 1.0)
+    motion = velocities(structure, 2.0 * np.pi * frequencies, lines)
+    maps = np.stack([structure.points[point.name].motion[:3] for point in points])
+    velocity = np.asarray(np.einsum("pij,fj->pif", maps, motion))
+    natural = natural_modes(structure.mass, structure.stiffness).hertz
+    found = _evaluate(tuple(points), frequencies, velocity, band, natural)
+    if structure.upper >= band[1]:
+        return found
+    said = f"the elastic casing keeps modes up to {structure.upper:.4g} Hz, the band ends at {band[1]:.4g} Hz"
+    return replace(found, warnings=(*found.warnings, f"{said}; reduce it with modes up to twice that"))
 
 
 def positions_for(frequency: float, base_frequency: float) -> int:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from trochoid.fem.coupling import ElasticBody, Seated
+from trochoid.fem.edge_law import EdgeLine
 from trochoid.fem.laws import HertzLine, Law
 from trochoid.fem.pair import Pair, State
 from trochoid.kinematics.types import Array, IntArray
@@ -30,11 +31,17 @@ class Family:
 
     def law_at(self, state: State) -> Law:
         """Return the law, Hertz's with the radii of a state."""
-        return self.law if self.law is not None else HertzLine(self.kernel, state.radius)
+        return self.law if self.law is not None else self.line_at(state)
+
+    def line_at(self, state: State) -> HertzLine | EdgeLine:
+        """Return the line contact with the radii of a state: Hertz's, cut off where a surface ends."""
+        if state.edge is None:
+            return HertzLine(self.kernel, state.radius)
+        return EdgeLine(self.kernel, state.radius, state.edge[..., 0], state.edge[..., 1])
 
     def seated(self, state: State) -> Seated:
         """Return what the coupling through bodies asks of the contacts."""
-        return Seated(state, self.pair.seat, self.round_side)
+        return Seated(state, self.pair.seat, self.round_side, self.pair.far_seat)
 
 
 @dataclass(frozen=True, slots=True)

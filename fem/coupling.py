@@ -22,13 +22,21 @@ class ElasticBody:
 
 @dataclass(frozen=True, slots=True)
 class Seated:
-    """Contacts of one family at the positions: their state, their seat on a body (None: rigid), and the smooth part
-    (c,) in m/N of their round sides.
+    """Contacts of one family at the positions: their state, their seat on a body (None: rigid), the smooth part (c,)
+    in m/N of their round sides, and the second member's seat.
     """
 
     state: State
     seat: Seat | None
     round_side: Array
+    far_seat: Seat | None = None
+
+    def on(self, body: int) -> tuple[Seat, Array] | None:
+        """Return the seat on a body and the arc lengths (n, c) there; None where the contacts do not press it."""
+        for seat, place in ((self.seat, self.state.place), (self.far_seat, self.state.far)):
+            if seat is not None and place is not None and seat.body == body:
+                return seat, place
+        return None
 
 
 def coupling(bodies: Sequence[ElasticBody], contacts: Sequence[Seated]) -> Array:
@@ -58,17 +66,16 @@ def _summed(
     total = np.zeros((len(contacts[0].state.gap), len(every), len(every)))
     total[:, every, every] = np.tile(np.concatenate([c.round_side for c in contacts]), directions)
     for number, body in enumerate(bodies):
-        on = [i for i, c in enumerate(contacts) if c.seat is not None and c.seat.body == number]
+        on = [i for i, c in enumerate(contacts) if c.on(number) is not None]
         if on:
             index = np.concatenate([np.arange(counts[i], counts[i + 1]) for i in on])
             index = np.concatenate([index + size * direction for direction in range(directions)])
-            weights, points = _places([contacts[i] for i in on])
+            weights, points = _places([contacts[i] for i in on], number)
             total[:, index[:, None], index] += read(body.compliance, weights, points) / body.width
     return total
 
 
-def _places(contacts: Sequence[Seated]) -> tuple[Weights, Array]:
-    weights = [
-        c.seat.weights(c.state.place) for c in contacts if c.seat is not None and c.state.place is not None
-    ]
+def _places(contacts: Sequence[Seated], body: int) -> tuple[Weights, Array]:
+    seats = [found for c in contacts if (found := c.on(body)) is not None]
+    weights = [seat.weights(place) for seat, place in seats]
     return Weights.joined(weights), np.concatenate([c.state.point for c in contacts], axis=1)

@@ -48,6 +48,15 @@ class HertzLine:
         """Return a (c,) in m: a² = 4FR/(πE*b) and A = 2/(πE*b)."""
         return np.sqrt(2 * self.kernel * self.radius * np.maximum(force, 0.0))
 
+    def reach(self, force: Array) -> Array:
+        """Return how far from the contact point the surfaces touch, a (c,) in m."""
+        return self.half_width(force)
+
+    def peak(self, force: Array) -> Array:
+        """Return the largest pressure times the face width, 2F/(πa) (c,) in N/m."""
+        half = self.half_width(force)
+        return np.divide(2 * force, np.pi * half, out=np.zeros_like(force), where=half > 0)
+
     def approach(self, force: Array) -> tuple[Array, Array]:
         """Return h and dh/dF = A ln(2/a)."""
         a = self.half_width(force)

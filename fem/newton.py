@@ -9,7 +9,6 @@ import numpy as np
 
 from trochoid.fem import complementarity as lcp
 from trochoid.fem.assembly import Assembly, Contact, Touch
-from trochoid.fem.laws import HertzLine
 from trochoid.fem.pair import State
 from trochoid.fem.rows import joined, taken
 from trochoid.kinematics.types import Array, BoolArray
@@ -135,8 +134,8 @@ def result(
     touches = {}
     for family, state, force in zip(assembly.families, point.states, solution.forces, strict=True):
         total = force.sum(axis=2)
-        half = HertzLine(family.kernel, state.radius).half_width(total)
-        peak = np.divide(2 * total, np.pi * half, out=np.zeros_like(total), where=half > 0)
+        line = family.line_at(state)
+        half, peak = line.half_width(total), line.peak(total)
         empty = np.zeros((*total.shape, 0))
         touches[family.name] = Touch(state, total, half, peak, empty, empty)
     point = replace(point, forces=tuple(touches[f.name].force for f in assembly.families))

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol, Self
+from typing import Protocol, Self, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from trochoid.fem.compliance import Surface, Weights, surface_weights
 from trochoid.kinematics.curve import ArcLength, Circle
@@ -46,7 +47,7 @@ class Seat:
     their start.
 
     `surface` is the first contact's; `first` (c,) the first station of each one's own, `shift` (c,) in m how
-    much later its arc length begins.
+    much later its arc length begins. Contacts that move on from tooth to tooth have both for each position, (n, c).
     """
 
     body: int
@@ -68,8 +69,12 @@ class Seat:
     def weights(self, position: Array) -> Weights:
         """Return spline weights at arc-length positions (n, c): columns and values (n, c, 4)."""
         template = surface_weights(self.surface, position - self.shift)
-        columns = template.columns + (self.first - self.surface.first)[:, None]
+        columns = template.columns + (self.first - self.surface.first)[..., None]
         return replace(template, columns=columns, surface=np.broadcast_to(self.first, position.shape))
+
+    def at(self, rows: IntArray) -> Seat:
+        """Return the seat at some positions."""
+        return replace(self, first=_rows(self.first, rows), shift=_rows(self.shift, rows))
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +83,9 @@ class State:
 
     `gap` (n, c) in m, `arms` (n, c, k) closing per unit motion, `point` (n, c, 2) and `normal` (n, c, 2) (out of the
     first member) in the fixed frame, `parameter` (n, c) on the curve, `radius` (n, c) combined radius of
-    curvature and `place` (n, c) arc length on the seat (None: rigid), both in m.
+    curvature and `place` (n, c) arc length on the seat (None: rigid), both in m; `far` (n, c) that on the second
+    member's seat. `edge` (n, c, 2) where surfaces end: how far inside the edge the contact lies, negative beyond it,
+    and the rounding of the edge, in m.
     """
 
     gap: Array
@@ -88,6 +95,8 @@ class State:
     parameter: Array
     radius: Array
     place: Array | None
+    far: Array | None = None
+    edge: Array | None = None
 
 
 class Pair(Protocol):
@@ -96,6 +105,11 @@ class Pair(Protocol):
     @property
     def seat(self) -> Seat | None:
         """The elastic body pressed, or None."""
+        ...
+
+    @property
+    def far_seat(self) -> Seat | None:
+        """The second member's elastic body, or None where that side is rigid or in closed form."""
         ...
 
     def rows(self, rows: IntArray) -> Self:
@@ -175,7 +189,10 @@ def _placed(points: Array, center: Array, angle: Array) -> Array:
     return np.asarray(points @ rotation(angle).swapaxes(-1, -2) + center[..., None, :])
 
 
-def _rows(values: Array, rows: IntArray) -> Array:
+T = TypeVar("T", bound=np.generic)
+
+
+def _rows(values: npt.NDArray[T], rows: IntArray) -> npt.NDArray[T]:
     """Return parameters (n, c) at some positions; (c,) belong to a single one."""
     return values if values.ndim == 1 else values[rows]
 
@@ -207,6 +224,11 @@ class FlankPair:
         start = flank.contact_parameter(number, np.asarray(crank_angle)[..., None])
         seat = None if surface is None else Seat.on(0, [surface] * flank.pins)
         return FlankPair(disc, ring, flank, Modification(), 0.0, pins, start, ArcLength(flank), seat)
+
+    @property
+    def far_seat(self) -> None:
+        """None: the round side is in closed form."""
+        return None
 
     def rows(self, rows: IntArray) -> FlankPair:
         """Return the pair at some positions."""
@@ -287,6 +309,11 @@ class HolePair:
     rollers: Array
     roller_radius: float
     seat: Seat | None
+
+    @property
+    def far_seat(self) -> None:
+        """None: the round side is in closed form."""
+        return None
 
     def rows(self, rows: IntArray) -> HolePair:
         """Return the pair at some positions."""

@@ -9,7 +9,6 @@ import numpy as np
 
 from trochoid.fem import complementarity as lcp
 from trochoid.fem.assembly import Assembly, Contact, Family, Touch
-from trochoid.fem.laws import HertzLine
 from trochoid.fem.newton import Point, gap_from, linearised, problem_of, result, rounding
 from trochoid.fem.pair import State
 from trochoid.fem.rows import joined, taken
@@ -138,9 +137,7 @@ def _strips(
 def _widths(family: Family, state: State, force: Array) -> Array:
     """Return the half widths (n, c) that strips are laid for, in m."""
     most = force.max(axis=1, initial=0.0, keepdims=True)
-    return HertzLine(family.kernel, state.radius).half_width(
-        np.maximum(force, np.where(most > 0, 1e-6 * most, 1e-9))
-    )
+    return family.line_at(state).reach(np.maximum(force, np.where(most > 0, 1e-6 * most, 1e-9)))
 
 
 def _contact(assembly: Assembly, found: _Strips, iterations: IntArray) -> Contact:

@@ -28,11 +28,12 @@ class Stations:
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """One closed surface of a body: arc-length positions of its stations, its length in m, the first
-    station, and the kink's slope in 1/(Pa·m).
+    """One surface of a body: arc-length positions of its stations, its length in m, the first station, and the
+    kink's slope in 1/(Pa·m).
 
     `sense` is 1 where arc length grows along the tangent (the outward normal turned by +90°), −1 on a hole;
-    `bend` the curvature in 1/m of a circle, 0 of any other curve.
+    `bend` the curvature in 1/m of a circle, 0 of any other curve. A surface is closed, or an open stretch with
+    `ends` in m (the flank of a tooth), four stations at least; places beyond an end count as on it.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Surface:
     kink: float
     sense: float = 1.0
     bend: float = 0.0
+    ends: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,9 +72,13 @@ def surface_weights(surface: Surface, position: Array) -> Weights:
     """Return the spline weights at arc-length positions (n,), which may have leading axes."""
     count = len(surface.positions)
     knots = _knots(surface)
-    start = surface.positions[0]
-    position = start + np.mod(position - start, surface.length)
-    interval = np.clip(np.searchsorted(knots, position, side="right") - 1, 3, count + 2)
+    if surface.ends is None:
+        start = surface.positions[0]
+        position = start + np.mod(position - start, surface.length)
+        last = count + 2
+    else:
+        position, last = np.clip(position, *surface.ends), count - 1
+    interval = np.clip(np.searchsorted(knots, position, side="right") - 1, 3, last)
     columns = interval[..., None] - 3 + np.arange(4)
     own, kink = np.full(position.shape, surface.first), np.full(position.shape, surface.kink)
     return Weights(surface.first + columns % count, _basis(knots, interval, position), own, kink)
@@ -85,6 +91,10 @@ def middles(surface: Surface) -> Array:
 
 
 def _knots(surface: Surface) -> Array:
+    """Return the knots: periodic, or for an open surface without those at the stations next to its ends."""
+    if surface.ends is not None:
+        low, high = surface.ends
+        return np.concatenate([np.full(4, low), surface.positions[2:-2], np.full(4, high)])
     turn = np.append(surface.positions, surface.positions[0] + surface.length)
     return np.concatenate([turn[-4:-1] - surface.length, turn, turn[1:4] + surface.length])
 

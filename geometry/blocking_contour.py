@@ -10,8 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from trochoid.geometry.blocking_refine import Margins, refined
+from trochoid.geometry.blocking_refine import Margins, bisected, refined
 from trochoid.kinematics.types import Array, BoolArray, IntArray
+
+_REACH = 10.0  # grid cells by which a traced boundary may lie outside those that it was found in
+END = "end of the shifts searched"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -63,7 +66,8 @@ def trace(
     high: tuple[float, float],
     steps: int = 160,
 ) -> Contour:
-    """Region within the box where all margins are ≥ 0; the box itself bounds nothing if it is large enough."""
+    """Region within the box where all margins are ≥ 0; where the box ends it, its boundary is named `END`."""
+    margins, names = _boxed(margins, low, high), (*names, END)
     x, y = (np.linspace(a, b, steps + 1) for a, b in zip(low, high, strict=True))
     inside = _inside(margins, x, y)
     if not inside.any():
@@ -75,8 +79,24 @@ def trace(
     boundaries = []
     for loop in loops:
         good, bad = (np.stack((x[loop[:, k, 0]], y[loop[:, k, 1]]), axis=-1) for k in (0, 1))
-        boundaries.append(Boundary(*refined(margins, good, bad)))
+        found = refined(margins, good, bad)
+        # the corners of a spike cut off by the grid may be those of the main region: keep to its own cells then
+        room = _REACH * np.array([x[1] - x[0], y[1] - y[0]])
+        low, high = np.minimum(good, bad).min(axis=0) - room, np.maximum(good, bad).max(axis=0) + room
+        within = np.all((found[0] >= low) & (found[0] <= high))
+        boundaries.append(Boundary(*(found if within else bisected(margins, good, bad))))
     return Contour(names, tuple(boundaries))
+
+
+def _boxed(margins: Margins, low: tuple[float, float], high: tuple[float, float]) -> Margins:
+    """The margins, and as the last of them how far a point is inside the box, a little smaller than given."""
+    center, half = 0.5 * (np.array(low) + high), 0.4999 * (np.array(high) - low)
+
+    def boxed(x: Array, y: Array) -> Array:
+        inside = np.minimum(half[0] - np.abs(x - center[0]), half[1] - np.abs(y - center[1]))
+        return np.concatenate((margins(x, y), inside[None]))
+
+    return boxed
 
 
 def _inside(margins: Margins, x: Array, y: Array) -> BoolArray:

@@ -25,6 +25,12 @@ def refined(margins: Margins, good: Array, bad: Array) -> tuple[Array, IntArray,
     return frozen(np.stack((points, middles), axis=1).reshape(-1, 2)), np.repeat(after, 2), area
 
 
+def bisected(margins: Margins, good: Array, bad: Array) -> tuple[Array, IntArray, float]:
+    """Boundary like `refined`, without corners and without more points: for pieces of a few grid cells."""
+    points = _between(margins, good, bad)
+    return frozen(points), np.roll(_label(margins, points), -1), _shoelace(points)
+
+
 def _feasible(margins: Margins, points: Array) -> BoolArray:
     feasible: BoolArray = margins(points[:, 0], points[:, 1]).min(axis=0) >= 0.0
     return feasible

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -31,6 +31,22 @@ class Walls:
     def least(self) -> float:
         """The thinnest of them, m."""
         return min(self.hole_to_flank, self.hole_to_bore, self.hole_to_hole, self.bore_to_flank)
+
+
+@dataclass(frozen=True, slots=True)
+class Holes:
+    """Equal round holes, evenly spaced on a circle about the centre; lengths in m, angle of the first in rad."""
+
+    count: int
+    circle_radius: float
+    radius: float
+    angle0: float = 0.0
+
+    @property
+    def centers(self) -> Array:
+        """Centres (count, 2), m."""
+        angles = self.angle0 + 2.0 * math.pi * np.arange(self.count) / self.count
+        return self.circle_radius * np.stack((np.cos(angles), np.sin(angles)), axis=-1)
 
 
 def root_radius(profile: Cycloid) -> float:
@@ -108,6 +124,40 @@ def _broken(wall: Walls, circle: float, radius: float) -> tuple[str, ...]:
         advice = f"a hole radius smaller than {_mm(limit)} or {other}" if limit > 0.0 else other
         given = f"holes of radius {_mm(radius)} on a circle of radius {_mm(circle)}"
         faults.append(f"{given} break into {place} by {_mm(-value)}; take {advice}")
+    return tuple(faults)
+
+
+def window_walls(profile: Cycloid, bore_radius: float, holes: Holes, windows: Holes) -> Walls:
+    """Walls of windows beside the bearing holes of a disc; `hole_to_hole` is the least to any other hole."""
+    own = walls(profile, bore_radius, windows.count, windows.circle_radius, windows.radius, windows.angle0)
+    apart = np.linalg.norm(windows.centers[:, None] - holes.centers[None], axis=-1).min(initial=math.inf)
+    beside = float(apart) - windows.radius - holes.radius
+    return replace(own, hole_to_hole=min(own.hole_to_hole, beside))
+
+
+def window_faults(
+    profile: Cycloid, bore_radius: float, holes: Holes, windows: Holes | None
+) -> tuple[str, ...]:
+    """Reasons why windows do not fit between flank, bore and bearing holes; empty when they do."""
+    if windows is None:
+        return ()
+    root = root_radius(profile)
+    if not 0.0 < windows.circle_radius < root:
+        given = f"window circle radius {_mm(windows.circle_radius)}"
+        return (f"{given}: it must lie between 0 and the root circle, {_mm(root)}",)
+    wall = window_walls(profile, bore_radius, holes, windows)
+    faults = []
+    for place, value in (
+        ("the flank", wall.hole_to_flank),
+        ("the bore", wall.hole_to_bore),
+        ("a neighbouring hole", wall.hole_to_hole),
+    ):
+        if value > 0.0:
+            continue
+        limit = windows.radius + value
+        advice = f"; take them smaller than {_mm(limit)}" if limit > 0.0 else "; move them"
+        given = f"windows of radius {_mm(windows.radius)} on a circle of radius {_mm(windows.circle_radius)}"
+        faults.append(f"{given} break into {place} by {_mm(-value)}{advice}")
     return tuple(faults)
 
 

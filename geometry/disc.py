@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from trochoid.geometry.check import Walls, disc_faults, refuse, walls
+from trochoid.geometry.check import Holes, Walls, disc_faults, refuse, walls, window_faults, window_walls
 from trochoid.geometry.outline import Loop, Outline, bending_breaks
 from trochoid.kinematics.curve import ArcLength, Circle
 from trochoid.kinematics.cycloid import Cycloid
@@ -23,8 +23,9 @@ def disc_outline(
     hole_radius: float,
     hole_angle0: float,
     facets_per_lobe: int,
+    windows: Holes | None = None,
 ) -> Outline:
-    """Outline with the loops "flank", "bore", "hole0", … in the disc's frame; lengths in m, angle in rad.
+    """Outline with the loops "flank", "bore", "hole0", …, "window0", … in the disc's frame; lengths in m, angle in rad.
 
     Flank facets follow arc length and curvature (`bending_breaks`), alike on all lobes; those of bore and
     holes are up to 1.75 times their mean, and with 8 facets per lobe no longer than the wall beside them (down
@@ -33,7 +34,8 @@ def disc_outline(
     Raises Infeasible.
     """
     sizes = (bore_radius, hole_count, hole_circle_radius, hole_radius, hole_angle0)
-    refuse(disc_faults(profile, *sizes))
+    bearing_holes = Holes(hole_count, hole_circle_radius, hole_radius, hole_angle0)
+    refuse(disc_faults(profile, *sizes) + window_faults(profile, bore_radius, bearing_holes, windows))
     if facets_per_lobe < 1:
         raise Infeasible(f"facets per lobe = {facets_per_lobe}; at least 1 is needed, 12 is usual")
     flank = Loop("flank", profile, breaks=bending_breaks(profile, facets_per_lobe, profile.lobes))
@@ -42,11 +44,21 @@ def disc_outline(
     counts = _facets(length, walls(profile, *sizes), bore_radius, hole_radius)
     bore_facets, hole_facets = (max(_FEWEST, count * facets_per_lobe // first) for count in counts)
     holes = [Loop("bore", Circle((0.0, 0.0), bore_radius, hole=True), bore_facets, hole_angle0)]
-    for j in range(hole_count):
-        angle = hole_angle0 + 2.0 * math.pi * j / hole_count
-        center = (hole_circle_radius * math.cos(angle), hole_circle_radius * math.sin(angle))
-        holes.append(Loop(f"hole{j}", Circle(center, hole_radius, hole=True), hole_facets, angle))
+    holes += _loops("hole", bearing_holes, hole_facets)
+    if windows is not None:
+        wall = window_walls(profile, bore_radius, bearing_holes, windows)
+        count = _facets(length, wall, bore_radius, windows.radius)[1]
+        holes += _loops("window", windows, max(_FEWEST, count * facets_per_lobe // first))
     return Outline(flank, tuple(holes))
+
+
+def _loops(name: str, ring: Holes, facets: int) -> list[Loop]:
+    loops = []
+    for j in range(ring.count):
+        angle = ring.angle0 + 2.0 * math.pi * j / ring.count
+        center = (ring.circle_radius * math.cos(angle), ring.circle_radius * math.sin(angle))
+        loops.append(Loop(f"{name}{j}", Circle(center, ring.radius, hole=True), facets, angle))
+    return loops
 
 
 def _first_level(facets_per_lobe: int) -> int:

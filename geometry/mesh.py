@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -39,8 +39,10 @@ class Mesh:
         return int(self.triangles[:3].max()) + 1
 
 
-def mesh_outline(outline: Outline, growth: float = 1.3) -> Mesh:
+def mesh_outline(outline: Outline, growth: float | Callable[[Array], Array] = 1.3) -> Mesh:
     """Mesh an outline; elements grow away from the boundary by about `growth` from one to the next.
+
+    It may be a function that gives it at points (n, 2) of the boundary.
 
     Raises TrochoidError when gmsh fails, or where curved elements would fold (naming the loop to refine).
     """
@@ -50,7 +52,8 @@ def mesh_outline(outline: Outline, growth: float = 1.3) -> Mesh:
             f"loops of an outline need different names; given {[loop.name for loop in outline.loops]}"
         )
     corners = [loop.curve.point(ends[loop.name][:-1]) for loop in outline.loops]
-    points, triangles = triangulate(corners, growth - 1.0)
+    rate = growth(np.concatenate(corners)) if callable(growth) else growth
+    points, triangles = triangulate(corners, rate - 1.0)
     nodes = _boundary_nodes(outline.loops, ends)
     triangles = _without_ears(points, triangles, np.concatenate([n[:2] for n in nodes.values()], axis=1))
     size = len(points)

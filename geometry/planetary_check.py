@@ -7,8 +7,9 @@ import math
 from trochoid.geometry.blocking_line import nearest_feasible
 from trochoid.geometry.planetary import Planetary, PlanetarySet, planetary
 from trochoid.geometry.planetary_quality import Condition, Limits, quality
+from trochoid.kinematics.assembly import coaxial, most_beside, neighbors_clear, planets_assemble
 from trochoid.kinematics.errors import Infeasible
-from trochoid.kinematics.involute_pair import needed_shift
+from trochoid.kinematics.involute_pair import mesh
 
 COAXIAL_TOLERANCE = 1e-3  # in modules; sources print shifts with three digits
 
@@ -28,11 +29,10 @@ def planetary_faults(given: PlanetarySet, limits: Limits | None = None) -> tuple
     try:
         set_ = planetary(given)
     except Infeasible as error:
-        return (_out_of_reach(given, error),)
+        return (out_of_reach(given, error),)
     return (
         *_fail_if_not_coaxial(given, set_),
-        *_fail_if_not_assembled(given, set_),
-        *_fail_if_planets_collide(given, set_),
+        *_fail_if_planets_do_not_fit(given, set_),
         *_fail_if_quality_fails(given, set_, limits),
     )
 
@@ -58,8 +58,8 @@ def _fail_if_teeth_impossible(given: PlanetarySet) -> tuple[str, ...]:
     return tuple(faults)
 
 
-def _out_of_reach(given: PlanetarySet, error: Infeasible) -> str:
-    """What the geometry says, with the least centre distance of both meshes."""
+def out_of_reach(given: PlanetarySet, error: Infeasible) -> str:
+    """Say what the geometry says, with the least centre distance of both meshes."""
     z1, z2, z3 = given.teeth
     least = 0.5 * given.module * max(z1 + z2, z3 - z2) * math.cos(given.pressure_angle)
     if given.center_distance > least:
@@ -71,55 +71,28 @@ def _out_of_reach(given: PlanetarySet, error: Infeasible) -> str:
 def _fail_if_not_coaxial(given: PlanetarySet, set_: Planetary) -> tuple[str, ...]:
     """Condition (1) of sources §4: both meshes must ask for the same centre distance."""
     z1, z2, z3 = given.teeth
-    x1, x2, _ = given.shifts
     faults = []
-    for name, pair, who in (
-        ("x1 + x2", set_.outer, "sun and planet"),
-        ("x3 − x2", set_.inner, "planet and ring"),
-    ):
-        have, need = float(pair.shift), float(needed_shift(pair))
-        if abs(have - need) <= COAXIAL_TOLERANCE:
+    for pair in (set_.outer, set_.inner):
+        try:
+            free = mesh(pair.first, pair.second)
+        except Infeasible as error:
+            faults.append(str(error))
             continue
-        advice = f"x2 = {need - x1:.6g}" if pair is set_.outer else f"x3 = {need + x2:.6g}"
-        faults.append(
-            f"not coaxial: {who} have {name} = {have:.6g}, and a centre distance of {_mm(given.center_distance)} "
-            f"needs {need:.6g}; take {advice}"
-        )
-    if faults and z3 != z1 + 2 * z2:
-        faults[-1] += f", or a ring of z1 + 2 z2 = {z1 + 2 * z2} teeth"
-    return tuple(faults)
+        faults.append(coaxial(free, given.center_distance, COAXIAL_TOLERANCE * given.module).fault)
+    found = tuple(fault for fault in faults if fault)
+    if found and z3 != z1 + 2 * z2:
+        return (*found[:-1], f"{found[-1]}, or a ring of z1 + 2 z2 = {z1 + 2 * z2} teeth")
+    return found
 
 
-def _fail_if_not_assembled(given: PlanetarySet, set_: Planetary) -> tuple[str, ...]:
-    z1, _, z3 = given.teeth
-    n, total = given.planets, z1 + z3
-    if total % n == 0:
-        return ()
-    fitting = [k for k in range(1, _most_planets(given, set_) + 1) if total % k == 0]
-    near = sorted(sorted(fitting, key=lambda k: abs(k - n))[:2])
-    rest = total % n
-    ring = z3 - rest if 2 * rest <= n else z3 + n - rest
-    return (
-        f"{n} equally spaced planets cannot be assembled: z1 + z3 = {total} is not a multiple of {n}; take "
-        f"{' or '.join(map(str, near))} instead, or a ring of {ring} teeth",
+def _fail_if_planets_do_not_fit(given: PlanetarySet, set_: Planetary) -> tuple[str, ...]:
+    (z1, _, z3), n = given.teeth, given.planets
+    circle, tip = given.center_distance, float(set_.tips[1])
+    found = (
+        planets_assemble(z1, z3, n, most_beside(circle, tip)),
+        neighbors_clear("planets", n, circle, tip),
     )
-
-
-def _fail_if_planets_collide(given: PlanetarySet, set_: Planetary) -> tuple[str, ...]:
-    n, tip = given.planets, float(set_.tips[1])
-    apart = given.center_distance * math.sin(math.pi / n)  # half the distance of neighbours
-    if n == 1 or tip < apart:
-        return ()
-    return (
-        f"{n} planets collide: their tip radius {_mm(tip)} must be less than a_w sin(π/{n}) = {_mm(apart)}; take at "
-        f"most {_most_planets(given, set_)}, or a planet with smaller tips",
-    )
-
-
-def _most_planets(given: PlanetarySet, set_: Planetary) -> int:
-    """Planets that fit side by side."""
-    share = float(set_.tips[1]) / given.center_distance
-    return max(1, math.ceil(math.pi / math.asin(share)) - 1) if share < 1.0 else 1
+    return tuple(check.fault for check in found if check.fault)
 
 
 def _fail_if_quality_fails(given: PlanetarySet, set_: Planetary, limits: Limits | None) -> tuple[str, ...]:

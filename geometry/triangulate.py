@@ -17,11 +17,12 @@ _FAR = 2.0  # beyond every distance in a body of extent 1
 _SIZE_STEP = 1.25  # boundary points whose facets differ less share one size field
 
 
-def triangulate(loops: Sequence[Array], slope: float) -> tuple[Array, IntArray]:
+def triangulate(loops: Sequence[Array], slope: float | Array) -> tuple[Array, IntArray]:
     """Triangles between closed polygons, the first of them the outer one, each (n, 2), m.
 
     Returns points (n, 2), the polygons' vertices first and unmoved, and triangles (3, m), counter-clockwise.
-    The element size is the facet length plus `slope` times the distance.  Raises TrochoidError.
+    The element size is the least over boundary points of facet length plus `slope`, one or one for each of them, times
+    the distance.  Raises TrochoidError.
     """
     boundary = np.concatenate(loops)
     shift, scale = boundary.mean(axis=0), float(np.ptp(boundary, axis=0).max())
@@ -56,22 +57,23 @@ def _add_polygons(gmsh: ModuleType, loops: Sequence[Array]) -> None:
     geo.synchronize()
 
 
-def _add_sizes(gmsh: ModuleType, loops: Sequence[Array], slope: float) -> None:
-    """Set size(x) = least over boundary points of facet length + slope |x − point|, in bins of length."""
+def _add_sizes(gmsh: ModuleType, loops: Sequence[Array], slope: float | Array) -> None:
+    """Set size(x) = least over boundary points of facet length + slope |x − point|, in bins of length and slope."""
     edge = [np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1) for loop in loops]
     size = np.concatenate([0.5 * (e + np.roll(e, 1)) for e in edge])
     level = np.floor(np.log(size / size.min()) / np.log(_SIZE_STEP) + 0.5).astype(int)
     fields = gmsh.model.mesh.field
     parts = []
-    for value in np.unique(level):
-        members = np.flatnonzero(level == value)
+    slopes = np.broadcast_to(slope, size.shape)
+    for value, steep in np.unique(np.stack([level, slopes], axis=1), axis=0):
+        members = np.flatnonzero((level == value) & (slopes == steep))
         distance = fields.add("Distance")
         fields.setNumbers(distance, "PointsList", (members + 1).tolist())
         ramp = fields.add("Threshold")
         near = float(np.exp(np.log(size[members]).mean()))
         fields.setNumber(ramp, "InField", distance)
         fields.setNumber(ramp, "SizeMin", near)
-        fields.setNumber(ramp, "SizeMax", near + _FAR * slope)
+        fields.setNumber(ramp, "SizeMax", near + _FAR * steep)
         fields.setNumber(ramp, "DistMin", 0.0)
         fields.setNumber(ramp, "DistMax", _FAR)
         parts.append(ramp)

@@ -36,14 +36,15 @@ def require(*checks: Check) -> None:
         raise Infeasible("\n".join(faults))
 
 
-def planets_assemble(sun: int, ring: int, planets: int) -> Check:
+def planets_assemble(sun: int, ring: int, planets: int, most: int | None = None) -> Check:
     """N equally spaced planets of a 2K-H set: N | z_sun + z_ring; `planet_places` are uneven ones that fit.
 
     The carrier turned by 1/N brings the next planet to the first one's place; the sun has then turned
-    (z_sun + z_ring)/(N z_sun) times, which must be whole teeth.  Margin: −misfit, in sun pitches.
+    (z_sun + z_ring)/(N z_sun) times, which must be whole teeth.  Margin: −misfit, in sun pitches.  No more than
+    `most` planets, as many as have room, are advised.
     """
     return _divides(
-        "assembly of the planets", planets, ("sun", sun), ("ring", ring), "equally spaced planets"
+        "assembly of the planets", planets, ("sun", sun), ("ring", ring), "equally spaced planets", most
     )
 
 
@@ -62,6 +63,12 @@ def planet_places(sun: int, ring: int, planets: int) -> tuple[Fraction, ...]:
     return tuple(Fraction(round(Fraction(k * steps, planets)), steps) for k in range(planets))
 
 
+def most_beside(circle_radius: float, radius: float, clearance: float = 0.0) -> int:
+    """How many equal bodies of `radius` have room side by side on a circle; lengths in m."""
+    share = (radius + 0.5 * clearance) / circle_radius
+    return max(1, math.ceil(math.pi / math.asin(share)) - 1) if share < 1.0 else 1
+
+
 def neighbors_clear(
     what: str, count: int, circle_radius: float, radius: float, clearance: float = 0.0
 ) -> Check:
@@ -76,8 +83,7 @@ def neighbors_clear(
     )
     if margin > 0.0:
         return Check(name, margin, "m")
-    share = (radius + 0.5 * clearance) / circle_radius
-    most = max(1, math.ceil(math.pi / math.asin(share)) - 1) if share < 1.0 else 1
+    most = most_beside(circle_radius, radius, clearance)
     limit = circle_radius * math.sin(math.pi / count) - 0.5 * clearance
     smaller = f", or a radius below {_mm(limit)}" if limit > 0.0 else ""
     wider = (radius + 0.5 * clearance) / math.sin(math.pi / count)
@@ -115,13 +121,16 @@ def coaxial(mesh: Pair, center_distance: float, tolerance: float = 1e-6) -> Chec
     )
 
 
-def _divides(name: str, count: int, one: tuple[str, int], two: tuple[str, int], what: str) -> Check:
+def _divides(
+    name: str, count: int, one: tuple[str, int], two: tuple[str, int], what: str, most: int | None = None
+) -> Check:
     _fail_if_none(what, count)
     total = one[1] + two[1]
     rest = total % count
     if rest == 0:
         return Check(name, 0.0, "pitch")
-    near = _nearest(count, lambda n: total % n == 0)
+    near = _nearest(count, lambda n: total % n == 0 and (most is None or n <= most))
+    noun = what.split()[-1].removesuffix("s" if near == "1" else "")
     teeth = two[1] + (-rest if 2 * rest <= count else count - rest)
     teeth += count if teeth < 1 else 0
     return Check(
@@ -129,7 +138,7 @@ def _divides(name: str, count: int, one: tuple[str, int], two: tuple[str, int], 
         -min(rest, count - rest) / count,
         "pitch",
         f"{count} {what} cannot be assembled: {one[0]} + {two[0]} = {total} teeth is no multiple of {count}; "
-        f"take {near} {what.split()[-1]}, or a {two[0]} of {teeth} teeth",
+        f"take {near} {noun}, or a {two[0]} of {teeth} teeth",
     )
 
 

@@ -71,7 +71,7 @@ class Indexer:
 
     @property
     def sense(self) -> int:
-        """+1 where drive and wheel turn alike about their axes over an index, −1 where against each other."""
+        """+1 where ψ grows over an index: the wheel turns about −o as the drive about z; −1 where about o."""
         return 1 if float(motion(self, self.half_turn).angle) >= 0.0 else -1
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from trochoid.kinematics.errors import Infeasible
-from trochoid.kinematics.indexer_limits import Wish, nearest_swing
+from trochoid.kinematics.indexer_limits import Wish, nearest_free, nearest_swing
 from trochoid.kinematics.indexer_synthesis import Solution, Task, by_duration, by_pin
 
 
@@ -49,11 +49,11 @@ def _refusal(task: Task, wish: Wish) -> str:
         f"no indexer without hard shock turns its wheel by {math.degrees(task.swing):g}° with i = {task.planet}, "
         f"shafts at {math.degrees(task.shaft_angle):g}° and {wish}"
     )
-    found = nearest_swing(task, wish)
+    found, free = nearest_swing(task, wish), nearest_free(task, wish)
+    instead = f"; with this swing {free} has one" if free else ""
     if found is None:
-        return f"{asked}; no other swing has one either: change " + (
-            "k or i" if wish.duration is not None else "ρ or i"
-        )
+        what = "k or i" if wish.duration is not None else "ρ or i"
+        return f"{asked}; no other swing has one either: change {what}{instead}"
     swing, reason = math.degrees(found[0]), found[1]
     inwards = math.floor if found[0] < task.swing else math.ceil
-    return f"{asked}: {reason}; the nearest swing is {inwards(swing * 1e4) / 1e4:.8g}°"
+    return f"{asked}: {reason}; the nearest swing is {inwards(swing * 1e4) / 1e4:.8g}°{instead}"

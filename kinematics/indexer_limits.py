@@ -71,6 +71,23 @@ def nearest_swing(task: Task, wish: Wish) -> tuple[float, str] | None:
     return inside, _binding(task, wish, inside, outside)
 
 
+def nearest_free(task: Task, wish: Wish) -> str | None:
+    """Name the k or ρ nearest to the wish that serves with the task's own swing; None if none does.
+
+    Every k in steps of 0.005 is tried, with all its ρ: what is named serves, but a nearer one may lie between.
+    """
+    steps = np.linspace(0.005, 0.995, 199)
+    roots = roots_by_duration(0.5 * task.swing, math.pi * steps, task.planet, task.shaft_angle)
+    roots = roots.take((assess(roots, task).fault == 0) & _wanted(roots, wish) & (roots.pin > 1e-9))
+    if roots.arm.size == 0:
+        return None
+    if wish.duration is not None:
+        k = roots.half_turn / math.pi
+        return f"k = {k[np.abs(k - wish.duration).argmin()]:.4g}"
+    assert wish.pin_ratio is not None
+    return f"ρ = {roots.pin_ratio[np.abs(np.log(roots.pin_ratio / wish.pin_ratio)).argmin()]:.6g}"
+
+
 def _candidates(task: Task, wish: Wish, swings: Array) -> Roots:
     if wish.duration is not None:
         return roots_by_duration(0.5 * swings, math.pi * wish.duration, task.planet, task.shaft_angle)

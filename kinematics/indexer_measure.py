@@ -127,7 +127,9 @@ def highest(samples: Array) -> Array:
     before, here, after = samples[..., :-2], samples[..., 1:-1], samples[..., 2:]
     bend = before - 2.0 * here + after
     top = (here > before) & (here >= after)
-    summit = np.where(top, here - (after - before) ** 2 / (8.0 * np.where(top, bend, -1.0)), -math.inf)
+    summit = np.where(
+        top, here - (after - before) ** 2 / (8.0 * np.where(top & (bend != 0.0), bend, -1.0)), -math.inf
+    )
     value: Array = np.maximum(samples.max(axis=-1), summit.max(axis=-1))
     return value
 

@@ -5,9 +5,8 @@ With tan β = ρ sin γ/(i + s cos γ) the condition L(P) = 0 has two harmonics 
     (i + s cos γ) A3 (1 + sρ cos θ) = ρ sin θ (A1(1 + m cos γ) − m A2 sin γ).
 
 Putting the two roots of the second into the first gives one smooth function of φ0, a trigonometric polynomial
-of degree 6(i + 1).  Its zeros are the eigenvalues of a companion matrix on the unit circle; they are bracketed,
-refined, and solved for γ as if φ0 had been given.  ρ < 0 stands for θ0 = π, −φ0 for the other sense of the
-wheel; φ0 + π gives the same function again, of (−1)^i ρ.
+of degree 6(i + 1).  Its zeros are found from samples, and solved for γ as if φ0 had been given.  ρ < 0 stands
+for θ0 = π, −φ0 for the other sense of the wheel; φ0 + π gives the same function again, of (−1)^i ρ.
 """
 
 from __future__ import annotations
@@ -27,9 +26,7 @@ from trochoid.kinematics.indexer_roots import (
     trigonometric_roots,
 )
 from trochoid.kinematics.types import Array
-from trochoid.kinematics.zeros import zeros_between
-
-NEAR = 0.1  # how far off the unit circle eigenvalues still part the turn into brackets
+from trochoid.kinematics.zeros import zeros_around
 
 
 def roots_by_pin(half_swing: float, pin_ratio: float, planet: int, shaft_angle: float) -> Roots:
@@ -37,13 +34,10 @@ def roots_by_pin(half_swing: float, pin_ratio: float, planet: int, shaft_angle: 
 
     A double root, at which two solutions merge, counts only if rounding parts it.
     """
-    signs = (1.0, -1.0) if planet % 2 == 0 else (1.0,)
-    found_turns = [
-        _zeros(half_swing, sign * pin_ratio, m, shaft_angle)
-        for sign in signs
-        for m in (float(planet), -float(planet))
-    ]
-    turns = np.concatenate(found_turns)
+    # −i with −ρ names the same mechanisms from the other end of the planet's axis; an odd i with −ρ half a turn on
+    turns = _zeros(half_swing, pin_ratio, planet, shaft_angle)
+    if planet % 2 == 0:
+        turns = np.concatenate((turns, _zeros(half_swing, -pin_ratio, planet, shaft_angle)))
     turns = np.concatenate((turns, math.pi - np.abs(turns)))
     turns = np.abs(turns[np.abs(np.sin(turns)) > 1e-4])
     if pin_ratio == 1.0:
@@ -61,6 +55,8 @@ def _free_arms(half_swing: float, pin_ratio: float, planet: int, shaft_angle: fl
         phi, psi = np.full(4, math.pi * j / planet), np.full(4, half_swing)
         A = slot_normal(sense * psi, shaft_angle, phi)
         free = np.abs(A[2]) < 1e-12
+        if not free.any():
+            continue
         for rho in (pin_ratio, -pin_ratio):
             harmonics = np.where(free, _on_slot(A, ratio, rho, ratio * phi), 0.0)
             arm, which = trigonometric_roots(harmonics)
@@ -107,26 +103,14 @@ def _eliminated(half_swing: float, pin_ratio: float, m: float, shaft_angle: floa
     return value
 
 
-def _zeros(half_swing: float, pin_ratio: float, m: float, shaft_angle: float) -> Array:
+def _zeros(half_swing: float, pin_ratio: float, planet: int, shaft_angle: float) -> Array:
     """Zeros over a turn of φ0 in (−π, π), over half a turn where i is even."""
-    fold = 2 if m % 2.0 == 0.0 else 1
-    degree = 6 * (round(abs(m)) + 1) // fold
-
-    def value(x: Array) -> Array:
-        return _eliminated(half_swing, pin_ratio, m, shaft_angle, x / fold)
-
-    count = 2 * degree + 2
-    grid = 2.0 * math.pi * (np.arange(count) + 0.3) / count
-    harmonics = np.fft.fft(value(grid))[np.arange(-degree, degree + 1)]
-    x = np.roots(harmonics[::-1] * np.exp(-0.6j * math.pi / count * np.arange(degree, -degree - 1, -1)))
-    angle = np.sort(np.angle(x[np.abs(np.log(np.maximum(np.abs(x), 1e-300))) < NEAR]))
-    if angle.size == 0:
-        return angle
-    node = 0.5 * (angle + np.roll(angle, -1))
-    node[-1] += math.pi
-    start = np.concatenate(([node[-1] - 2.0 * math.pi], node[:-1]))
-    zeros: Array = zeros_between(value, start, node) / fold
-    return np.asarray(np.angle(np.exp(1j * zeros)))
+    fold = 2 if planet % 2 == 0 else 1
+    found = zeros_around(
+        lambda x: _eliminated(half_swing, pin_ratio, float(planet), shaft_angle, x / fold),
+        6 * (planet + 1) // fold,
+    )
+    return found / fold
 
 
 def _distinct(roots: Roots) -> Roots:

@@ -83,9 +83,13 @@ def planet_and_sense(planet: int) -> tuple[Array, Array]:
 def facing(
     arm: Array, pin: Array, m: Array, sense: Array, phi: Array, psi: Array, shaft_angle: float
 ) -> Roots:
-    """Candidates with P·w > 0 in mid-index, from pin angles whose sign stands for θ0."""
+    """Candidates with P·w > 0 in mid-index, from pin angles whose sign stands for θ0.
+
+    A pin square to the planet's axis, ρ without end, is left out.
+    """
     found = Roots(arm, np.abs(pin), m, np.where(pin < 0.0, math.pi, 0.0), sense, phi, psi)
-    return found.take((np.sin(shaft_angle - arm - pin) > 0.0) & (np.abs(np.sin(arm)) > ALONG))
+    square = found.pin > 0.5 * math.pi - ALONG
+    return found.take((np.sin(shaft_angle - arm - pin) > 0.0) & (np.abs(np.sin(arm)) > ALONG) & ~square)
 
 
 def slot_normal(angle: Array, shaft_angle: float, half_turn: Array) -> Array:

@@ -165,15 +165,25 @@ def assess(roots: Roots, task: Task) -> Assessment:
         (velocity[:, 1:-1] > 0.0).all(axis=-1) & (velocity[:, 0] > -STILL) & (acceleration[:, -1] < STILL)
     )
     right = np.abs(turned - roots.half_swing) < 1e-6
-    still = np.linspace(0.0, 1.0, rest_samples(task.planet))
-    rest = still * (math.pi - roots.half_turn[:, None]) + roots.half_turn[:, None]
+    clear = _stays_outside(roots, task, right & steady)
     axis = np.array([math.sin(task.shaft_angle), 0.0, math.cos(task.shaft_angle)])
-    height = pin_derivatives(arm, pin, m, phase, rest, 0)[0] @ axis
-    clear = highest(height) <= height[:, 0] + 1e-12
     bent = np.signbit(bending(moving)[:, :-1])
     inflections = np.count_nonzero(bent[:, 1:] != bent[:, :-1], axis=-1)
     deep = moving[0] @ axis
     nearest = (deep <= deep[:, :1] + 1e-12).all(axis=-1)
     fault = np.select([~right, ~steady, ~clear], [1, 2, 3], 0)
-    cost = np.abs(acceleration).max(axis=-1) * roots.half_turn**2 / roots.half_swing
+    with np.errstate(divide="ignore", invalid="ignore"):  # no swing at all is a fault of the first kind
+        cost = np.abs(acceleration).max(axis=-1) * roots.half_turn**2 / roots.half_swing
     return Assessment(fault, 2.0 * cost, inflections, nearest)
+
+
+def _stays_outside(roots: Roots, task: Task, asked: BoolArray) -> BoolArray:
+    """Whether the pin stays outside the wheel's rim in the dwell; true where it is not `asked`."""
+    few = roots.take(asked)
+    arm, pin, m, phase, start = (x[:, None] for x in (few.arm, few.pin, few.ratio, few.phase, few.half_turn))
+    rest = np.linspace(0.0, 1.0, rest_samples(task.planet)) * (math.pi - start) + start
+    axis = np.array([math.sin(task.shaft_angle), 0.0, math.cos(task.shaft_angle)])
+    height = pin_derivatives(arm, pin, m, phase, rest, 0)[0] @ axis
+    clear = np.ones(asked.shape, dtype=bool)
+    clear[asked] = highest(height) <= height[:, 0] + 1e-12
+    return clear

@@ -41,10 +41,11 @@ def ring_root_radius(ring: Gear, shaper: Shaper) -> Any:
 def ring_boundary(ring: Gear, shaper: Shaper) -> Any:
     """Radius of curvature ρ_l = a_w0 sin α_w0 + √(d_a0² − d_b0²)/2 (m) where a ring's involute ends.
 
-    Holds for a sharp tip; a rounded one shortens the cutter's flank (see `shaper_cut`).
+    A tip rounded with ρ shortens the cutter's flank: √((d_a0/2 − ρ)² − r_b0²) + ρ stands for the root then.
     """
     distance, angle = _distance(ring, shaper)
-    return distance * np.sin(angle) + shaper.gear(ring).curvature_radius(0.5 * shaper.tip_diameter)
+    foot = 0.5 * shaper.tip_diameter - shaper.rounding
+    return distance * np.sin(angle) + shaper.gear(ring).curvature_radius(foot) + shaper.rounding
 
 
 def trimming(ring: Gear, shaper: Shaper) -> Any:

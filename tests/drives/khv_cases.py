@@ -21,8 +21,9 @@ from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array
 from trochoid.scene import load
 from trochoid.scene.drive_khv import KhvScene
-from trochoid.scene.effects import EFFECTS
+from trochoid.scene.needs import EFFECTS_OF
 
+EFFECTS = EFFECTS_OF["khv"]
 EXAMPLE = Path(__file__).parents[2] / "examples" / "cycloid.toml"
 RV40 = (  # sources §3
     "drive.pins=40",

@@ -14,11 +14,12 @@ from tests.drives.khv_cases import EVERY_PIN_ALIKE, scene
 from trochoid.accuracy import Study, study
 from trochoid.accuracy.errors import leaves
 from trochoid.clock import Clock
+from trochoid.drives.choosing import COARSEST
 from trochoid.drives.khv.choice import choose
 from trochoid.drives.khv.estimate import FLOOR, SHARE, scalar_error
 from trochoid.drives.khv.ladder import levels, repeated
 from trochoid.drives.khv.series import Series
-from trochoid.drives.khv.stages import COARSEST, Stages
+from trochoid.drives.khv.stages import Stages
 from trochoid.geometry.disc import disc_outline
 from trochoid.kinematics.cycloid import Cycloid
 from trochoid.kinematics.errors import NotConverged

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.drives.khv_cases import NO_PLAY, drive, level_of, scene, turn, without
+from tests.drives.khv_cases import EFFECTS, NO_PLAY, drive, level_of, scene, turn, without
 from trochoid.clock import Clock
 from trochoid.drives.khv.answers import QUANTITIES
 from trochoid.drives.khv.plan import STAGES_OF
@@ -15,7 +15,6 @@ from trochoid.drives.khv.series import Series
 from trochoid.drives.khv.stages import Stages
 from trochoid.results import Outcome
 from trochoid.run import Run, plan
-from trochoid.scene.effects import EFFECTS
 
 CONTACT = (
     'ask.quantities=["contact_force_max","contact_pressure_max","torsional_stiffness","bearing_stiffness"]'

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from tests.fem.cases import POSITIONS, solve_held
+from trochoid.drives.choosing import COARSEST
 from trochoid.drives.khv.estimate import position_errors, scalar_error
-from trochoid.drives.khv.stages import COARSEST
 from trochoid.fem.position import Contact
 from trochoid.kinematics.types import Array
 

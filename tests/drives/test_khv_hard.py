@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.drives.khv_cases import NO_PLAY, drive, imbalance, level_of, scene, turn, without
+from tests.drives.khv_cases import EFFECTS, NO_PLAY, drive, imbalance, level_of, scene, turn, without
 from trochoid.clock import Clock
 from trochoid.drives.khv.plan import STAGES_OF
 from trochoid.drives.khv.series import solve_at
@@ -20,7 +20,6 @@ from trochoid.kinematics.cycloid import Cycloid
 from trochoid.kinematics.errors import Infeasible, NotConverged, TrochoidError
 from trochoid.results import Outcome, to_json
 from trochoid.run import Run
-from trochoid.scene.effects import EFFECTS
 from trochoid.scene.needs import UNDER_TORQUE
 
 ALL = 'ask.quantities=["' + '","'.join(STAGES_OF) + '"]'

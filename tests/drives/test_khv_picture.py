@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.drives.khv_cases import EFFECTS
 from trochoid.clock import Clock
 from trochoid.drives.khv.headline import ABSENT_EFFECTS, NEVER_SIMULATED, facts, not_simulated, title
 from trochoid.drives.khv.picture import drawing, fields, turned_stress
@@ -14,7 +15,6 @@ from trochoid.drives.khv.stages import Stages
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import DrawingFrame
 from trochoid.scene import load
-from trochoid.scene.effects import EFFECTS
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "cycloid.toml"
 FIXED = pytest.mark.parametrize("fixed", ["ring", "output"])

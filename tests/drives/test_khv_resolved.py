@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.drives.khv_cases import EVERY_PIN_ALIKE, drive, level_of, without
+from tests.drives.khv_cases import EFFECTS, EVERY_PIN_ALIKE, drive, level_of, without
 from trochoid.drives.khv.contact import centrifugal
 from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.estimate import NUMBERS
@@ -16,7 +16,6 @@ from trochoid.drives.khv.resolved_bodies import Fineness
 from trochoid.drives.khv.series import Series, solve_at, solve_series
 from trochoid.fem.position import Contact
 from trochoid.kinematics.errors import SceneError
-from trochoid.scene.effects import EFFECTS
 
 COARSE = Fineness(on_half_width=8, per_lobe=8)
 ROLLERS_ON_SPRINGS = without("friction")

@@ -7,12 +7,11 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.drives.khv_cases import NO_PLAY, scene, without
+from tests.drives.khv_cases import EFFECTS, NO_PLAY, scene, without
 from trochoid.drives.khv.contact import centrifugal
 from trochoid.drives.khv.reactions import Reactions
 from trochoid.drives.khv.stages import Stages
 from trochoid.run import Run
-from trochoid.scene.effects import EFFECTS
 
 ASKED = ("ask.positions=12", "accuracy.facets_per_lobe=4", 'ask.quantities=["reactions"]')
 

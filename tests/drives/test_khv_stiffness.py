@@ -9,12 +9,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from tests.drives.khv_cases import drive, level_of, turn, without
+from tests.drives.khv_cases import EFFECTS, drive, level_of, turn, without
 from trochoid.drives.khv.contact import assembly, layout
 from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.series import Series
 from trochoid.fem.position import solve_position
-from trochoid.scene.effects import EFFECTS
 
 POSITIONS = 4
 FLANGE = "drive.output_flange.bearing_stiffness={}"

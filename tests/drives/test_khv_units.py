@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.drives.khv_cases import EXAMPLE, drive, level_of, scene, without
+from tests.drives.khv_cases import EFFECTS, EXAMPLE, drive, level_of, scene, without
 from trochoid.drives.khv.contact import layout
 from trochoid.drives.khv.series import solve_at
 from trochoid.kinematics.types import Array
 from trochoid.run import Run
-from trochoid.scene.effects import EFFECTS
 
 GIVEN: dict[str, Any] = tomllib.loads(EXAMPLE.read_text(encoding="utf-8"))
 LENGTHS = {

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from trochoid.geometry.blocking import body, inner_contour, inner_plane, outer_contour, outer_plane, volume
-from trochoid.geometry.blocking_contour import trace
+from trochoid.geometry.blocking_contour import END, trace
 from trochoid.geometry.blocking_line import choose, coaxial_line, nearest_feasible, needed_sums
 from trochoid.geometry.planetary import PlanetarySet, planetary
 from trochoid.geometry.planetary_quality import Limits, least_margin, quality
@@ -59,6 +59,14 @@ def test_two_pieces_and_nothing() -> None:
     assert trace(lambda x, y: np.stack((x - 9.0,)), ("far",), (-2, -2), (2, 2)).area == 0.0
 
 
+@pytest.mark.exact
+def test_what_the_box_cuts_is_named() -> None:
+    """A half plane has an end where the box has one, and its boundary says so."""
+    half = trace(lambda x, y: np.stack((x + y,)), ("slope",), (-2, -2), (2, 2), 60)
+    assert half.binding == ("slope", END)
+    assert half.area == pytest.approx(8.0, rel=1e-3)
+
+
 @pytest.mark.regression
 def test_areas_and_volume_of_the_source() -> None:
     """Traced: 2.08701, 10.06699, 10.80812; sources §4 has 2.08, 10.07, 10.77 from a grid of step 0.01."""
@@ -92,7 +100,7 @@ def test_boundary_points_lie_on_what_they_name() -> None:
         for boundary in contour.boundaries:
             x, y = boundary.points.T
             names, margins = least_margin(plane(SOURCE, x, y, LIMITS), SOURCE.module)
-            assert names == contour.names
+            assert (*names, END) == contour.names
             assert margins.min() > -1e-9
             named = margins[boundary.conditions, np.arange(x.size)]
             assert np.quantile(np.abs(named), 0.99) < 1e-9

@@ -203,13 +203,20 @@ def test_the_source_can_be_built() -> None:
         ),
         ({"center_distance": 45e-3}, r"take a centre distance from 46\.9846 mm"),
         ({"teeth": (20, 30, 90)}, r"or a ring of z1 \+ 2 z2 = 80 teeth"),
-        ({"teeth": (20, 30, 81)}, r"needs 0\.534709; take x3 = 1\.16871, or a ring of z1 \+ 2 z2 = 80 teeth"),
-        ({"shifts": (0.5, 0.7, 1.8)}, r"x1 \+ x2 = 1\.2, .* needs 1\.1336; take x2 = 0\.633596"),
+        (
+            {"teeth": (20, 30, 81)},
+            r"30 and 81 teeth stand 53\.0044 mm apart .* not coaxial; the nearest shift of the ring is 1\.16871, "
+            r"or take a centre distance of 53\.0044 mm, or a ring of z1 \+ 2 z2 = 80 teeth",
+        ),
+        ({"shifts": (0.5, 0.7, 1.8)}, r"20 and 30 teeth stand .* nearest shift of the planet is 0\.633596"),
         (
             {"planets": 3},
-            r"z1 \+ z3 = 100 is not a multiple of 3; take 2 or 4 instead, or a ring of 79 teeth",
+            r"sun \+ ring = 100 teeth is no multiple of 3; take 2 or 4 planets, or a ring of 79 teeth",
         ),
-        ({"planets": 5}, r"5 planets collide: .* a_w sin\(π/5\) = 30\.5648 mm; take at most 4"),
+        (
+            {"planets": 5},
+            r"5 planets of radius 33 mm .* collide: .*; take at most 4, or a radius below 30\.5648 mm",
+        ),
         (
             {"shifts": (-0.2, 1.334, 2.468)},
             r"undercut of the sun: -0\.2, and it must be ≥ -0\.169778; its own limit is a shift of -0\.169778; "

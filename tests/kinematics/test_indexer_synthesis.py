@@ -18,6 +18,7 @@ from trochoid.kinematics.indexer_measure import dwell, peaks, similarity
 from trochoid.kinematics.indexer_pin_roots import roots_by_pin
 from trochoid.kinematics.indexer_roots import roots_by_duration
 from trochoid.kinematics.indexer_synthesis import Solution, Task, by_duration, by_pin, cusped
+from trochoid.kinematics.spherical_trochoid import Kind
 from trochoid.kinematics.types import Array
 
 RIGHT = Task(90 * DEGREE, 4)
@@ -158,6 +159,9 @@ def test_choice(task: Task, duration: float) -> None:
     try:
         chosen = synthesise(task, wish)
     except Infeasible as refusal:
+        free = re.search(r"with this swing k = ([\d.]+) has one", str(refusal))
+        if free:
+            assert synthesise(task, Wish(duration=float(free[1]))).fault == ""
         named = re.search(r"nearest swing is ([\d.]+)°", str(refusal))
         if named:
             swing = float(named[1]) * DEGREE
@@ -170,6 +174,19 @@ def test_choice(task: Task, duration: float) -> None:
     for x in solutions(task, wish):
         if not x.fault:
             assert similarity(x.indexer).acceleration >= least * (1.0 - 1e-3)  # it is chosen from samples
+
+
+@pytest.mark.property
+@given(task=tasks(), rho=st.floats(0.02, 20.0), kind=st.sampled_from(["epi", "hypo"]))
+@settings(max_examples=10, deadline=None)
+def test_named_pin_ratio_serves(task: Task, rho: float, kind: Kind) -> None:
+    """A refusal of ρ names one that serves with the same swing, if there is any."""
+    try:
+        assert synthesise(task, Wish(pin_ratio=rho, kind=kind)).kind == kind
+    except Infeasible as refusal:
+        free = re.search(r"with this swing ρ = ([\d.e+-]+) has one", str(refusal))
+        if free:
+            assert synthesise(task, Wish(pin_ratio=float(free[1]), kind=kind)).fault == ""
 
 
 @pytest.mark.exact

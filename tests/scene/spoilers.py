@@ -14,8 +14,8 @@ from tests.scene.random_drives import Tables, scene_of
 from trochoid.drives.khv.design import Design, design
 from trochoid.faults import listed, nearest
 from trochoid.kinematics.cycloid import Cycloid
-from trochoid.scene import EFFECTS, KINDS, NEEDS
-from trochoid.scene.needs import UNDER_TORQUE
+from trochoid.scene import KINDS, NEEDS
+from trochoid.scene.needs import EFFECTS_OF, UNDER_TORQUE
 
 LENGTHS = tuple(
     f"drive.{key}"
@@ -56,6 +56,8 @@ TABLES = (
     "operation",
     "ask",
 )
+
+EFFECTS = EFFECTS_OF["khv"]
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,12 @@ from hypothesis import strategies as st
 
 from trochoid.faults import Fault, SceneFaults, listed
 from trochoid.kinematics.errors import SceneError
-from trochoid.scene import EFFECTS, KINDS, NEEDS, Override, Scene, load, read
+from trochoid.scene import KINDS, NEEDS, Override, Scene, load, read
 from trochoid.scene.lines import key_lines
+from trochoid.scene.needs import EFFECTS_OF
 from trochoid.starter import starter
+
+EFFECTS = EFFECTS_OF["khv"]
 
 
 def faults_of(text: str, *overrides: str | Override) -> tuple[Fault, ...]:

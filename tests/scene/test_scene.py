@@ -9,7 +9,10 @@ import pytest
 from pydantic import ValidationError
 
 import trochoid
-from trochoid.scene import EFFECTS, NEEDS, QUANTITIES
+from trochoid.scene import NEEDS, QUANTITIES
+from trochoid.scene.needs import EFFECTS_OF
+
+EFFECTS = EFFECTS_OF["khv"]
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "cycloid.toml"
 
@@ -73,9 +76,9 @@ def test_scene_is_frozen_and_dumps_si() -> None:
 @pytest.mark.property
 def test_offered_quantities_are_known_ones() -> None:
     """What a drive offers is in the common list, and each needs effects that exist."""
-    for offered in NEEDS.values():
+    for kind, offered in NEEDS.items():
         assert set(offered) <= set(QUANTITIES)
-        assert {effect for needs in offered.values() for effect in needs} <= set(EFFECTS)
+        assert {effect for needs in offered.values() for effect in needs} <= set(EFFECTS_OF[kind])
 
 
 @pytest.mark.property

@@ -82,7 +82,7 @@ def _space(plot: Plot) -> dict[str, Any]:
         for name, axis in zip(_NAMES, plot.axes, strict=True)
     }
     scene = {**axes, "aspectmode": "data" if plot.equal else "cube", "dragmode": "orbit"}
-    return style.layout(_SPACE, scene=scene, margin={"l": 0, "r": 0, "t": 10, "b": 0})
+    return style.layout(_SPACE, scene=scene, margin={"l": 0, "r": 0, "t": 36, "b": 0})
 
 
 def _titled(axis: Axis) -> str:

@@ -10,6 +10,7 @@ from trochoid.results import text
 from trochoid.results.outcome import Parts, Quantity
 
 _TILE = 4  # parts that still fit into a tile
+_WIDE = 6  # columns that still fit beside each other
 Leaf = tuple[str, Quantity]
 
 
@@ -59,8 +60,15 @@ def tiles_of(quantities: Mapping[str, Quantity]) -> list[Tile]:
 
 
 def tables_of(quantities: Mapping[str, Quantity]) -> list[Table]:
-    """Return the other quantities; where several things have the same parts, a row per thing."""
-    return [_table(name, quantity) for name, quantity in quantities.items() if not _fits(quantity)]
+    """Return the other quantities; where several things have the same parts, a row per thing, or a column per thing
+    where these are many; things with other parts have tables of their own.
+    """
+    return [
+        table
+        for name, quantity in quantities.items()
+        if not _fits(quantity)
+        for table in _tables(name, quantity)
+    ]
 
 
 def scene_tables(scene: Mapping[str, Any]) -> list[Table]:
@@ -96,12 +104,36 @@ def _number(name: str, quantity: Quantity) -> Number:
     return Number(text.label(name), value, error, text.pretty_unit(quantity.unit))
 
 
+def _tables(name: str, quantity: Quantity) -> list[Table]:
+    """Return one table of a quantity, or one for each run of parts that are alike, where there are such runs."""
+    runs: list[dict[str, Quantity | Parts]] = []
+    for key, part in (quantity.parts or {}).items():
+        alike = runs and _shared_columns([*map(_inner, runs[-1].values()), _inner(part)])
+        if alike or (runs and not _columns(runs[-1]) and not _columns({key: part, "": part})):
+            runs[-1][key] = part
+        else:
+            runs.append({key: part})
+    if not any(_columns(run) for run in runs):
+        return [_table(name, quantity)]
+    tables = [_table(name, replace(quantity, parts=run, note=None)) for run in runs]
+    return [*tables[:-1], replace(tables[-1], note=quantity.note or "")]
+
+
+def _columns(parts: Parts) -> tuple[str, ...]:
+    return _shared_columns([_inner(part) for part in parts.values()])
+
+
 def _table(name: str, quantity: Quantity) -> Table:
     parts = quantity.parts or {}
     leaves = list(_leaves(parts))
     model = quantity.model or _shared_model(leaves)
     groups = [(key, _inner(part)) for key, part in parts.items()]
     columns = _shared_columns([group for _, group in groups])
+    if len(columns) > _WIDE:
+        rows = [Row(text.label(c), tuple(_cell(group[c], "") for _, group in groups)) for c in columns]
+        return Table(
+            text.label(name), tuple(rows), tuple(text.label(k) for k, _ in groups), model, quantity.note or ""
+        )
     units = {column: _shared_unit([group[column] for _, group in groups]) for column in columns}
     head = tuple(f"{text.label(c)} ({units[c]})" if units[c] else text.label(c) for c in columns)
     if columns:
@@ -118,7 +150,7 @@ def _row(path: str, leaf: Quantity, model: str) -> Row:
 def _leaves(parts: Parts, path: str = "") -> Iterator[Leaf]:
     """Yield the values among nested parts with the path to each."""
     for name, part in parts.items():
-        here = f"{path} · {name.replace('_', ' ')}" if path else name
+        here = f"{path} · {text.spoken(name)}" if path else name
         if isinstance(part, Quantity) and part.parts is None:
             yield here, part
         else:

@@ -32,10 +32,19 @@ def pretty_unit(unit: str) -> str:
 
 
 def label(name: str) -> str:
-    """Return the heading of a name: "mass" → "Mass", "stress_max" → "Largest stress"."""
-    words = name.replace("_", " ").strip()
-    words = f"largest {words[:-4]}" if words.endswith(" max") else words
+    """Return the heading of a name: "mass" → "Mass", "stress_max" → "Largest stress"; a symbol ("R_A") stays."""
+    words = spoken(name)
+    if words.endswith(" max"):
+        words = f"{words[:-4]} largest" if words.endswith(" · max") else f"largest {words[:-4]}"
     return words[:1].upper() + words[1:]
+
+
+def spoken(name: str) -> str:
+    """Return a name in words; symbols such as R_A and M_3 stay as they are."""
+    return " · ".join(
+        part if re.fullmatch(r"[A-Z]_\w{1,2}", part) else part.replace("_", " ").strip()
+        for part in name.split(" · ")
+    )
 
 
 def number(value: float | str | None, digits: int = 5) -> str:

@@ -125,6 +125,13 @@ def _accuracy(raw: Mapping[str, Any], kind: str) -> Iterator[Found]:
             ("accuracy",),
             f"all answers about {kind} drives are closed forms: take the table [accuracy] away",
         )
+    model = _table(raw, "accuracy").get("model")
+    offered = MODELS_OF[kind]
+    if offered and isinstance(model, str) and model in MODELS_OF["khv"] and model not in offered:
+        yield (
+            ("accuracy", "model"),
+            f"{quoted(model)} is not a model of {kind} drives; need {listed(offered)}",
+        )
 
 
 def _points(casing: Mapping[str, Any]) -> Iterator[Found]:

@@ -33,6 +33,12 @@ class BearingCompliance(Table):
     type: Literal["bearing_compliance"]
 
 
+class PositionErrors(Table):
+    """Planets stand off their places by the errors of the scene."""
+
+    type: Literal["position_errors"]
+
+
 class InertiaForces(Table):
     """Inertia forces of the moving members."""
 
@@ -58,7 +64,7 @@ class Friction(Table):
 
 
 AnyEffect: TypeAlias = (
-    ElasticContact | PinCompliance | Clearance | BearingCompliance | InertiaForces | CasingOnMounts | Friction
+    ElasticContact | PinCompliance | Clearance | BearingCompliance | PositionErrors | InertiaForces | CasingOnMounts | Friction
 )
 Effect: TypeAlias = Annotated[AnyEffect, Field(discriminator="type")]
 EFFECTS: tuple[str, ...] = tuple(

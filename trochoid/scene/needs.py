@@ -16,6 +16,7 @@ QUANTITIES = (
     "transmission_error",
     "mesh_stiffness",
     "torsional_stiffness",
+    "stiffness_breakdown",
     "lost_motion",
     "backlash",
     "torsion_curve",
@@ -29,6 +30,7 @@ QUANTITIES = (
     "vibration_velocity",
     "vibration_zone",
     "indexing_motion",
+    "solutions",
     "mass",
 )
 
@@ -59,6 +61,64 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "vibration_zone": ("inertia", "casing_on_mounts"),
         "mass": (),
     },
+    "precessional": {
+        "ratio": (),
+        "member_speeds": (),
+        "profile": (),
+        "geometry_quality": (),
+        "contact_ratio": (),
+        "reactions": ("inertia",),
+        "balance": (),
+        "vibration_velocity": ("inertia", "casing_on_mounts"),
+        "vibration_zone": ("inertia", "casing_on_mounts"),
+        "mass": (),
+    },
+    "rv": {
+        "ratio": (),
+        "member_speeds": (),
+        "profile": (),
+        "geometry_quality": (),
+        "contact_ratio": (),
+        "load_sharing": ("elastic_contact",),
+        "contact_force_max": ("elastic_contact",),
+        "contact_pressure_max": ("elastic_contact",),
+        "transmission_error": ("elastic_contact",),
+        "mesh_stiffness": ("elastic_contact",),
+        "torsional_stiffness": ("elastic_contact",),
+        "stiffness_breakdown": ("elastic_contact",),
+        "lost_motion": ("elastic_contact",),
+        "bearing_loads": ("elastic_contact",),
+        "balance": (),
+        "mass": (),
+    },
+    "planetary": {
+        "ratio": (),
+        "member_speeds": (),
+        "profile": (),
+        "geometry_quality": (),
+        "blocking_contour": (),
+        "contact_ratio": (),
+        "load_sharing": ("elastic_contact",),
+        "contact_force_max": ("elastic_contact",),
+        "contact_pressure_max": ("elastic_contact",),
+        "transmission_error": ("elastic_contact",),
+        "mesh_stiffness": ("elastic_contact",),
+        "torsional_stiffness": ("elastic_contact",),
+        "bearing_loads": (),
+        "reactions": (),
+        "mass": (),
+    },
+    "indexer": {
+        "ratio": (),
+        "member_speeds": (),
+        "indexing_motion": (),
+        "solutions": (),
+        "profile": (),
+        "geometry_quality": (),
+        "contact_force_max": (),
+        "reactions": ("inertia",),
+        "mass": (),
+    },
 }
 
 KINDS = tuple(NEEDS)
@@ -74,10 +134,20 @@ EFFECTS_OF: dict[str, tuple[str, ...]] = {
         "casing_on_mounts",
         "friction",
     ),
+    "precessional": ("inertia", "casing_on_mounts"),
+    "rv": ("elastic_contact", "pin_compliance", "clearance", "bearing_compliance", "inertia"),
+    "planetary": ("elastic_contact", "bearing_compliance", "position_errors", "clearance", "inertia"),
+    "indexer": ("inertia",),
 }
 
 # the contact models among which a kind of drive chooses; none: closed forms, and nothing to choose
-MODELS_OF: dict[str, tuple[str, ...]] = {"khv": ("springs", "level0", "strips")}
+MODELS_OF: dict[str, tuple[str, ...]] = {
+    "khv": ("springs", "level0", "strips"),
+    "rv": ("level0", "strips"),
+    "precessional": (),
+    "planetary": ("level0", "strips"),
+    "indexer": (),
+}
 ELASTIC_MODELS = ("level0", "strips")
 UNDER_TORQUE = (
     "lost_motion",

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 from trochoid.clock import Clock
 from trochoid.drives import Drive
+from trochoid.drives.choosing import COARSEST
 from trochoid.drives.khv.answers import QUANTITIES
 from trochoid.drives.khv.outcome import outcome
 from trochoid.drives.khv.plan import plan
-from trochoid.drives.khv.stages import COARSEST, Stages, named_rung
+from trochoid.drives.khv.stages import Stages, named_rung
 from trochoid.ladder import Ladder
 from trochoid.plan import Plan
 from trochoid.scene.drive_khv import KhvScene

@@ -9,8 +9,9 @@ import numpy as np
 from trochoid.drives.khv.numbers import number, over_turn
 from trochoid.drives.khv.reactions import Reactions
 from trochoid.drives.khv.series import Series
-from trochoid.drives.khv.stages import Pair, Stages
+from trochoid.drives.khv.stages import Stages
 from trochoid.drives.khv.vibration import CasingVibration
+from trochoid.drives.mesh_error import Pair
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Quantity
 

@@ -1,16 +1,12 @@
-"""The automatic choice: the cheapest contact model, then the coarsest mesh, that meet the scene's tolerance.
-
-Level 0 takes every contact for one between half-planes under Hertz's pressure. How wrong that is does not depend on
-the mesh (the differences on 8 and on 32 facets per lobe agree to a hundredth), so a few positions on the coarsest
-level tell, where strips are affordable. The mesh follows from the error that two levels suggest.
-"""
+"""How wrong level 0 is for a K-H-V drive, and the automatic choice of model and mesh for it (see `drives.choosing`)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from trochoid.drives import choosing
+from trochoid.drives.choosing import POSITIONS, Chosen
 from trochoid.drives.khv.estimate import STIFFNESS, differences, worst_error
 from trochoid.kinematics.errors import NotConverged
 
@@ -18,22 +14,6 @@ if TYPE_CHECKING:
     from trochoid.drives.khv.bodies import Level
     from trochoid.drives.khv.design import Design
     from trochoid.drives.khv.series import Series
-
-MODEL_SHARE = 0.25  # of the tolerance that the model may take; the rest is the mesh's
-POSITIONS = 7  # at which level 0 is compared with strips; odd, so that few of them are alike
-
-
-@dataclass(frozen=True, slots=True)
-class Chosen:
-    """The rung, the mesh levels that were solved on it (the last two count), the estimated error of the number
-    `of`, the largest, for the mesh, and that of the model.
-    """
-
-    rung: str
-    levels: tuple[int, ...]
-    error: float
-    of: str
-    model_error: float
 
 
 def choose(
@@ -45,26 +25,9 @@ def choose(
 ) -> Chosen:
     """Return the first of the `levels`, coarse to fine, whose estimated error meets the tolerance.
 
-    `solve(rung, level)` gives the contacts over a turn, `model_error()` that of level 0, which is not asked for
-    when the scene names a `rung`. Raises NotConverged when no level is fine enough.
+    Raises NotConverged when no level is fine enough.
     """
-    off = 0.0
-    if rung is None:
-        off = model_error()
-        rung, off = ("level0", off) if off <= MODEL_SHARE * tolerance else ("strips", 0.0)
-    coarse = solve(rung, levels[0])
-    error, name = float("inf"), ""
-    for count, level in enumerate(levels[1:], start=2):
-        fine = solve(rung, level)
-        error, name = worst_error(fine, coarse)
-        if error <= tolerance:
-            return Chosen(rung, tuple(levels[:count]), error, name, off)
-        coarse = fine
-    raise NotConverged(
-        f"the error of {name} is estimated at {error:.1e} with {levels[-1]} facets per lobe, more than "
-        f"accuracy.tolerance = {tolerance:g}; raise the tolerance to {error:.1e}, or name accuracy.facets_per_lobe "
-        "and accept the error"
-    )
+    return choosing.choose(tolerance, levels, solve, worst_error, model_error, rung)
 
 
 def model_error(design: Design, level: Level) -> float:

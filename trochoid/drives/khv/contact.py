@@ -12,8 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trochoid.drives.khv.design import Design, Disc, circle
-from trochoid.fem.bearing import EXPONENT, iso16281_constant
+from trochoid.drives.disc_pack import Disc, circle
+from trochoid.drives.khv.design import Design
+from trochoid.drives.roller_seat import RollerSeat, least_load, round_side
+from trochoid.fem.bearing import EXPONENT
 from trochoid.fem.laws import HertzLine, Law, LinearSpring, PowerLaw
 from trochoid.fem.material import Material, Plane
 from trochoid.fem.pair import FlankPair, HolePair, Member, Seat
@@ -150,7 +152,8 @@ def _ring(
         seat,
         classical=body is None,
     )
-    kernel, side = _round(design, count, flank.pin_radius, design.drive.face_width)
+    yields = design.scene.has("pin_compliance")
+    kernel, side = round_side(plane(design), count, flank.pin_radius, design.drive.face_width, yields)
     return [Family(f"ring{i}", pair, kernel, side, _classical(design, body))]
 
 
@@ -171,7 +174,8 @@ def _output(
     rollers = circle(pins.circle_radius, pins.count, start)
     seat = _seat(body, i, [f"hole{j}" for j in hole])
     pair = HolePair(member, flange, holes, design.hole_radius, rollers, pins.roller_radius, seat)
-    kernel, side = _round(design, pins.count, pins.roller_radius, design.drive.face_width)
+    yields = design.scene.has("pin_compliance")
+    kernel, side = round_side(plane(design), pins.count, pins.roller_radius, design.drive.face_width, yields)
     return [Family(f"output{i}", pair, kernel, side, _classical(design, body))]
 
 
@@ -192,50 +196,29 @@ def _bearing(
     pair = HolePair(
         member, cage, np.zeros((count, 2)), design.drive.bore_radius, rollers, bearing.roller_radius, seat
     )
-    one = plane(design).kernel / bearing.roller_length
-    wider = 0.0 if body is None else widening(design)
+    rolling = roller_seat(design)
+    one, wider = rolling.kernel, 0.0 if body is None else rolling.widening
     if not motions.floating:  # rigid rollers on a rigid eccentric: the seat's own Hertz contact is left
         return [Family(f"bearing{i}", pair, np.full(count, one), np.full(count, wider))]
-    law = PowerLaw(roller_constant(design), EXPONENT)
-    side = np.full(count, 0.0 if body is None else wider + seat_for_seat(design, law, one))
+    law = PowerLaw(rolling.constant, EXPONENT)
+    exchanged = 0.0 if body is None else wider + rolling.seat_for_seat(law, nominal_roller_load(design))
+    side = np.full(count, exchanged)
     return [Family(f"bearing{i}", pair, np.full(count, 2 * one), side, law)]
 
 
-def roller_constant(design: Design) -> float:
-    """Return the load constant of a roller between its raceways, N/m^(10/9): the standard's for steel, else
-    in proportion to E'.
-    """
-    steel = Material(210e9, 0.3).plane(design.drive.plane).modulus
-    return iso16281_constant(design.drive.eccentric_bearing.roller_length) * plane(design).modulus / steel
-
-
-def widening(design: Design) -> float:
-    """Return the compliance in m/N that the bore lacks because a roller's load spreads over the whole face width.
-
-    The contact's logarithm counts with the roller's length, the body's with the face width; they meet at the
-    depth that the load reaches at 45° when it has become as wide as the disc.
-    """
-    length, width = design.drive.eccentric_bearing.roller_length, design.drive.face_width
-    if length >= width:
-        return 0.0
-    return float(plane(design).kernel * (1 / length - 1 / width) * np.log(0.5 * (width - length)))
-
-
-def seat_for_seat(design: Design, law: PowerLaw, one: float) -> float:
-    """Return what turns the seat that ISO/TS 16281 contains into none, plus the real seat's own logarithm, in m/N.
-
-    The standard's line contact comprises both raceways in thick bodies. Its outer seat is what is left of it
-    after Hertz's closed forms for the roller (both halves) and the eccentric; the seat computed by finite
-    elements takes its place. Evaluated at the mean load of a loaded roller.
-    """
-    bearing = design.drive.eccentric_bearing
-    load = np.array([nominal_roller_load(design)])
-    r, inner, outer = bearing.roller_radius, design.race_radius, design.drive.bore_radius
-    out = HertzLine(np.array([2 * one]), np.array([1 / (1 / r - 1 / outer)])).half_width(load)[0]
-    into = HertzLine(np.array([2 * one]), np.array([1 / (1 / r + 1 / inner)])).half_width(load)[0]
-    logs = np.log(4 * r / out) + np.log(4 * r / into) + np.log(4 * inner / into) - 1.5
-    standard = law.approach(load)[0][0] / load[0] - one * logs
-    return float(one * (np.log(2 / out) + 0.5) - standard)
+def roller_seat(design: Design) -> RollerSeat:
+    """Return the eccentric bearing's rollers in the bore of a disc."""
+    bearing, drive = design.drive.eccentric_bearing, design.drive
+    return RollerSeat(
+        plane(design),
+        drive.plane,
+        bearing.rollers,
+        bearing.roller_radius,
+        bearing.roller_length,
+        design.race_radius,
+        drive.bore_radius,
+        drive.face_width,
+    )
 
 
 def nominal_roller_load(design: Design) -> float:
@@ -243,30 +226,10 @@ def nominal_roller_load(design: Design) -> float:
 
     That force is √2·T/(e z_c) and the inertia of the disc.
     """
-    bearing, flank = design.drive.eccentric_bearing, design.flank
+    flank = design.flank
     force = np.sqrt(2) * design.flange_torque / (len(design.discs) * flank.eccentricity * flank.lobes)
     force += flank.eccentricity * design.crank_speed**2 * design.eccentric_mass
-    least = _least_load(design, bearing.roller_radius) * bearing.roller_length
-    return float(max(4 * force / bearing.rollers, least))
-
-
-def _least_load(design: Design, radius: float) -> float:
-    """Return the line load in N/m at which a contact is 1/1000 as wide as its pin: logarithms that stand for typical
-    loads count from it when nothing loads the drive.
-    """
-    return 1e-6 * radius / (4 * plane(design).kernel)
-
-
-def _round(design: Design, count: int, radius: float, width: float) -> tuple[Array, Array]:
-    """Return kernel and smooth part of contacts between the disc and round pins that are held on their far side.
-
-    Half of a cylinder pressed between two contacts (Johnson, Contact Mechanics, 5.57): (2/πE')(ln(4r/a) − ½)
-    per unit line load.
-    """
-    one = plane(design).kernel / width
-    if not design.scene.has("pin_compliance"):
-        return np.full(count, one), np.zeros(count)
-    return np.full(count, 2 * one), np.full(count, one * (np.log(2 * radius) - 1))
+    return roller_seat(design).typical_load(float(force))
 
 
 def _classical(design: Design, body: ElasticBody | None) -> Law | None:
@@ -283,7 +246,7 @@ def contact_stiffness(design: Design) -> float:
         return d.contact_stiffness
     force = 4 * design.flange_torque / len(design.discs)
     force /= design.flank.trochoid_ratio * d.pin_circle_radius * design.flank.lobes
-    force = max(force, _least_load(design, d.pin_radius) * d.face_width)
+    force = max(force, least_load(plane(design), d.pin_radius) * d.face_width)
     kernel = np.array([2 * plane(design).kernel / d.face_width])
     approach, _ = HertzLine(kernel, np.array([d.pin_radius])).approach(np.array([force]))
     # the logarithm counts from a depth of one pin diameter in both bodies

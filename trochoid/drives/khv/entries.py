@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
 import numpy.typing as npt
 
-ANGLE = "input_angle"
+from trochoid.drives.entries import ANGLE, Entries, Entry, named, numbered
+from trochoid.drives.entries import entry as plain
+
+__all__ = ["ANGLE", "Entries", "Entry", "entry", "named", "numbered"]
+
 SHARING, OUTPUT, ECCENTRIC = "Load sharing of the ring pins", "Output pins", "Eccentric bearings"
 PRESSURE, STIFFNESS, ERROR = "Contact pressure", "Torsional stiffness", "Transmission error"
 REACTIONS, CHANGE, VELOCITY = "Bearing reactions", "Elastic less rigid reactions", "Vibration velocity"
@@ -24,27 +25,10 @@ CAPTIONS = {
     VELOCITY: "Amplitude at the multiples of the input speed, by the vector sum of all forces on the casing.",
 }
 
-Entry = tuple[tuple[str, ...], npt.NDArray[Any], dict[str, str]]
-Entries = dict[str, Entry]
-
 
 def entry(
     dims: tuple[str, ...], values: npt.ArrayLike, units: str, name: str, figure: str = "", **more: str
 ) -> Entry:
-    """Return values in SI with what plots and scripts must know of them; `more`: other attributes of a dataset."""
-    attributes = {"units": units, "long_name": name}
-    if figure:
-        attributes["figure"] = figure
-    if figure in CAPTIONS:
-        attributes["caption"] = CAPTIONS[figure]
-    return dims, np.asarray(values), attributes | more
-
-
-def numbered(dim: str, count: int, name: str) -> Entry:
-    """Return a coordinate 1 … count."""
-    return entry((dim,), np.arange(1, count + 1), "", name)
-
-
-def named(dim: str, names: tuple[str, ...], name: str) -> Entry:
-    """Return a coordinate of words."""
-    return entry((dim,), np.array(names), "", name)
+    """Return values in SI with what plots and scripts must know of them, the figure's caption with them."""
+    caption = {"caption": CAPTIONS[figure]} if figure in CAPTIONS else {}
+    return plain(dims, values, units, name, figure, **(caption | more))

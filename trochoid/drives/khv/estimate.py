@@ -1,50 +1,42 @@
-"""Discretisation error of finite-element numbers, from two mesh levels.
-
-What the contacts give converges with the second to third power of the facet length: the torsional stiffness and the
-twist with the second from eight facets per lobe on, forces and pressures with nearly the third (medians over random
-drives). Half the facet length then leaves a third to a seventh of the difference between the levels. Half of it is
-reported, because single numbers scatter, and because the levels of any one number may agree by chance: none is
-believed to be much better than the worst. So the error is bracketed for nine of ten numbers of random drives
-(benchmarks/choice.py).
-"""
+"""What the two mesh levels of a K-H-V drive are compared by (see `drives.mesh_error`)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from trochoid.kinematics.types import Array
+from trochoid.drives.mesh_error import (
+    AT_POSITIONS,
+    FLOOR,
+    SHARE,
+    position_errors,
+    relative,
+    scalar_error,
+    worst_of,
+)
 
 if TYPE_CHECKING:
     from trochoid.drives.khv.series import Series
 
-SHARE, AT_POSITIONS = 1 / 2, 1 / 3  # of the difference: of one number, and where all positions vouch for each
-FLOOR = 0.3  # least share of the worst number's relative difference that any number is taken to have
+__all__ = [
+    "AT_POSITIONS",
+    "FLOOR",
+    "NUMBERS",
+    "SHARE",
+    "STIFFNESS",
+    "TWIST",
+    "differences",
+    "position_errors",
+    "scalar_error",
+    "worst_error",
+]
+
 TWIST, STIFFNESS = "the twist", "the torsional stiffness"
-
-
-def position_errors(fine: Array, coarse: Array) -> Array:
-    """Return the estimated error (n,) of a number at each position, not less than the typical one.
-
-    Where the levels happen to cross, their difference says nothing; the root mean square over all positions
-    stands in.
-    """
-    difference = np.abs(fine - coarse)
-    return np.asarray(AT_POSITIONS * np.maximum(difference, np.sqrt(np.mean(difference**2))))
-
-
-def scalar_error(fine: float, coarse: float, worst: float = 0.0) -> float:
-    """Return the estimated error of one number, given the largest relative difference of all."""
-    return SHARE * max(abs(fine - coarse), FLOOR * worst * abs(fine))
 
 
 def worst_error(fine: Series, coarse: Series) -> tuple[float, str]:
     """Return the largest relative error among what the scene's answers rest on, and its name."""
-    errors = differences(fine, coarse)
-    worst = max(errors, key=lambda name: errors[name])
-    return SHARE * errors[worst], worst
+    return worst_of(differences(fine, coarse))
 
 
 def differences(one: Series, other: Series) -> dict[str, float]:
@@ -54,8 +46,7 @@ def differences(one: Series, other: Series) -> dict[str, float]:
     for name, get in NUMBERS.items():
         if name == TWIST and not resists:  # free within its play: no number
             continue
-        a, b = get(one), get(other)
-        found[name] = abs(a - b) / abs(a) if a else 0.0
+        found[name] = relative(get(one), get(other))
     return found
 
 

@@ -8,10 +8,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from trochoid.clock import Clock
+from trochoid.drives.choosing import FINEST
 from trochoid.drives.khv import headline
 from trochoid.drives.khv.choice import choose
 from trochoid.drives.khv.plan import STAGES_OF
-from trochoid.drives.khv.stages import FINEST, Solved, Stages, named_rung
+from trochoid.drives.khv.stages import Solved, Stages, named_rung
 from trochoid.kinematics.errors import SceneError
 from trochoid.ladder import Ladder, Oracle, Pick, Rung
 from trochoid.scene.drive_khv import KhvScene

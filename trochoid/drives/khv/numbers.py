@@ -6,7 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from trochoid.drives.khv.estimate import scalar_error
-from trochoid.drives.khv.stages import Pair, Stages
+from trochoid.drives.khv.stages import Stages
+from trochoid.drives.mesh_error import Pair
 from trochoid.results.outcome import Quantity
 
 if TYPE_CHECKING:

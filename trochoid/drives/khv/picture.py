@@ -3,37 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
-from trochoid.drives.khv.design import Design, circle
+from trochoid.drives.disc_pack import circle
+from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.stages import Stages
+from trochoid.drives.paths import Path, framed
 from trochoid.kinematics.motion import PlaneMotion, khv_motions
 from trochoid.kinematics.types import Array, frozen
-from trochoid.results.outcome import Arrow, Drawing, DrawingFrame, Field, FieldFrame, Line
+from trochoid.results.outcome import Arrow, Drawing, Field, FieldFrame
 
 FLANK_POINTS = 760
 SMALL, LARGE = 48, 120  # points of a circle
 NOISE = 1e-6  # N: what rounding of gaps leaves of a contact without load
 RING_PINS, OUTPUT_PINS, SHAFT, AXES = "ring pins", "output pins", "shaft and eccentrics", "pitch circles"
-
-
-@dataclass(frozen=True, slots=True)
-class Path:
-    """A line of the drawing over all frames: `xy` (frames, points, 2) m, or (points, 2) where it stands still."""
-
-    name: str
-    xy: Array
-    group: str
-    style: str = "outline"
-    closed: bool = True
-
-    def line(self, frame: int) -> Line:
-        """Return the line of one frame."""
-        return Line(
-            self.name, self.xy if self.xy.ndim == 2 else self.xy[frame], self.closed, self.style, self.group
-        )
 
 
 def drawing(stages: Stages, frames: int = 36) -> Drawing:
@@ -50,13 +34,7 @@ def drawing(stages: Stages, frames: int = 36) -> Drawing:
         )
         angles = stages.contact.fine.angle[list(positions)]
         arrows = [tuple(_arrows(stages, position)) for position in positions]
-    paths = tuple(_paths(stages.design, angles))
-    return Drawing(
-        tuple(
-            DrawingFrame(f"{np.degrees(angle):.1f}°", tuple(path.line(i) for path in paths), arrows[i])
-            for i, angle in enumerate(angles)
-        )
-    )
+    return framed(angles, tuple(_paths(stages.design, angles)), arrows)
 
 
 def _paths(design: Design, angles: Array) -> Iterator[Path]:

@@ -13,14 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trochoid.drives.khv.contact import (
-    layout,
-    nominal_roller_load,
-    plane,
-    roller_constant,
-    seat_for_seat,
-    widening,
-)
+from trochoid.drives.khv.contact import layout, nominal_roller_load, plane, roller_seat
 from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.spots import Spot
 from trochoid.fem.bearing import EXPONENT
@@ -70,11 +63,12 @@ def roller_law(design: Design) -> Seated:
     `contact` closes its smooth seat with the logarithm at the middle of a Hertz pressure, (2/πE')(ln(2/a) + ½)
     per unit line load. Here the elements have that logarithm: the mean over the pressure, ln(2/a) + ¼.
     """
-    law = PowerLaw(roller_constant(design), EXPONENT)
-    one = plane(design).kernel / design.drive.eccentric_bearing.roller_length
+    rolling = roller_seat(design)
+    law = PowerLaw(rolling.constant, EXPONENT)
     wide = plane(design).kernel / design.drive.face_width
     own = wide * (math.log(2 / seat_half_width(design)) + 0.5)
-    return Seated(law, widening(design) + seat_for_seat(design, law, one) - own + 0.25 * wide)
+    exchanged = rolling.seat_for_seat(law, nominal_roller_load(design))
+    return Seated(law, rolling.widening + exchanged - own + 0.25 * wide)
 
 
 def spreading(design: Design, spot: Spot, facets: Facets) -> Array:
@@ -84,4 +78,4 @@ def spreading(design: Design, spot: Spot, facets: Facets) -> Array:
         return np.zeros((count, count))
     share = plane(design).kernel * (1 / bearing.roller_length - 1 / design.drive.face_width)
     points = spot.curve.point(facets.middle)
-    return curve_compliance(share, points, facets.length) + widening(design)
+    return curve_compliance(share, points, facets.length) + roller_seat(design).widening

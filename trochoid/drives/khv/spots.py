@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from trochoid.drives.disc_pack import Disc, circle
 from trochoid.drives.khv.contact import Layout
-from trochoid.drives.khv.design import Design, Disc, circle
+from trochoid.drives.khv.design import Design
 from trochoid.fem.facing import Facing, Frame, turned
 from trochoid.kinematics.curve import Circle, Curve
 from trochoid.kinematics.cycloid import gap

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING
 
 from trochoid.clock import Clock
+from trochoid.drives.choosing import COARSEST, FINEST, doubled
 from trochoid.drives.khv.design import Design, design
+from trochoid.drives.mesh_error import Pair
 from trochoid.kinematics.errors import Infeasible, SceneError, TrochoidError
 from trochoid.scene.drive_khv import KhvScene
 
@@ -25,24 +26,6 @@ if TYPE_CHECKING:
     from trochoid.drives.khv.vibration import CasingVibration
     from trochoid.fem.position import ElasticBody
     from trochoid.geometry.mesh import Mesh
-
-COARSEST = 8  # facets per lobe: with 6 the order of convergence is not yet seen, and the estimate misleads
-FINEST = 64
-
-T = TypeVar("T")
-U = TypeVar("U")
-
-
-@dataclass(frozen=True, slots=True)
-class Pair(Generic[T]):
-    """A value on the finer mesh level and on the coarser one; None where there is no mesh."""
-
-    fine: T
-    coarse: T | None
-
-    def map(self, make: Callable[[T], U]) -> Pair[U]:
-        """Make something of both."""
-        return Pair(make(self.fine), None if self.coarse is None else make(self.coarse))
 
 
 @dataclass(frozen=True)
@@ -174,7 +157,7 @@ class Stages:
 
         given = accuracy.facets_per_lobe
         first, meshes = self.coarsest() if given is None else (self.first_given(given), None)
-        levels = (first, given) if given is not None else _doubled(first)
+        levels = (first, given) if given is not None else doubled(first)
         built = {first: self.level(first, meshes)}
         solved: dict[int, Series] = {}
 
@@ -276,11 +259,3 @@ class Stages:
 def named_rung(scene: KhvScene) -> str | None:
     """Return the contact model that the scene names, by its effects or by accuracy.model; None leaves the choice."""
     return scene.accuracy.model if scene.has("elastic_contact") else "springs"
-
-
-def _doubled(first: int) -> tuple[int, ...]:
-    """Return the mesh levels that a run may try."""
-    levels = [first]
-    while 2 * levels[-1] <= FINEST:
-        levels.append(2 * levels[-1])
-    return tuple(levels)

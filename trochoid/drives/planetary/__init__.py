@@ -1,1 +1,29 @@
-"""The involute planetary set 2K-H: sun, planets, ring, carrier."""
+"""The involute planetary set 2K-H: sun, planets, ring with internal teeth, carrier."""
+
+from __future__ import annotations
+
+from trochoid.clock import Clock
+from trochoid.drives import Drive
+from trochoid.drives.planetary.answers import QUANTITIES
+from trochoid.drives.planetary.outcome import outcome
+from trochoid.drives.planetary.plan import plan
+from trochoid.drives.planetary.stages import Stages
+from trochoid.ladder import Ladder
+from trochoid.plan import Plan
+from trochoid.scene.drive_planetary import PlanetaryScene
+
+
+def _plan(scene: PlanetaryScene) -> Plan:
+    made = plan(scene)
+    if any(stage.needed and stage.name == "geometry" for stage in made.stages):
+        Stages(scene, Clock()).feasible  # noqa: B018 - raises Infeasible with every reason
+    return made
+
+
+def _ladder(scene: PlanetaryScene, clock: Clock) -> Ladder:
+    from trochoid.drives.planetary.ladder import ladder
+
+    return ladder(scene, clock)
+
+
+DRIVE = Drive(Stages, QUANTITIES, outcome, _plan, _ladder)

@@ -1,0 +1,274 @@
+"""All contacts of rollers and rim together, slice by slice, at many positions side by side.
+
+Newton runs over laws and pose at once, and the complementarity core solves each step exactly: each roller is a contact
+with its slices as strips.  There contacts act on each other through their totals; what that mean leaves out between
+the slices of pressed contacts is put into the gaps and follows the forces from step to step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from trochoid.fem import complementarity as lcp
+from trochoid.fem.cone_law import FAINT, Side, SliceLaw
+from trochoid.fem.cone_pair import ConeState, RollerPair
+from trochoid.fem.cone_table import RimCompliance, Weights
+from trochoid.kinematics.errors import NotConverged
+from trochoid.kinematics.types import Array, BoolArray, IntArray
+
+STEPS = 60
+SETTLED = 1e-8  # of the largest force: gaps of coordinates in rounding leave 2e-9
+NEAR = 1e-3  # of a station's width: contacts that moved less keep their compliance
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Roller:
+    """The roller's side of each contact: `kernel` 2/(πE') in 1/Pa, 0 for a rigid one.
+
+    `own` (s, s) in m/N is its S when it is a body of its own (see `cone_roller`), with `ends` (m) and `blunt` (s,) as
+    in `Side`; otherwise half a solid cylinder pressed on its far side as well (Johnson, Contact Mechanics, 5.57):
+    (2/(πE'))(ln(4r/b) − ½) per unit line load, r the roller's radius.
+    """
+
+    kernel: float = 0.0
+    poissons_ratio: float = 0.3
+    own: Array | None = None
+    ends: tuple[float, float] = (0.0, 0.0)
+    blunt: Array | None = None
+
+
+RIGID_ROLLER = Roller()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ConeAssembly:
+    """Rim, rollers, springs (k, k) in N·m/rad (N/m) and loads (n, k) in N·m (N) on the rim's motions."""
+
+    rim: RimCompliance
+    pair: RollerPair
+    springs: Array
+    load: Array
+    roller: Roller = RIGID_ROLLER
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ConeContact:
+    """Solved positions.
+
+    `force` (n, C, s) in N on slices, `pressure` (n, C, s) the largest of each in Pa, `half_width` (n, C, s) in m,
+    `motion` (n, k), `stiffness` (n, k, k) its tangent, `state` the geometry there, `steps` taken, `residual` (n,) the
+    worst opening or overlap of pressed slices over the largest approach.
+    """
+
+    force: Array
+    pressure: Array
+    half_width: Array
+    motion: Array
+    stiffness: Array
+    state: ConeState
+    steps: int
+    residual: Array
+
+    @property
+    def total(self) -> Array:
+        """Force (n, C) of each contact, N."""
+        return np.asarray(self.force.sum(axis=-1))
+
+    def edge(self) -> BoolArray:
+        """Say where (n, C) an end slice is pressed: there a roller without crowning has a singular edge pressure."""
+        return np.asarray((self.force[..., 0] > 0.0) | (self.force[..., -1] > 0.0))
+
+
+def solve_cone(assembly: ConeAssembly, at_once: int = 16) -> ConeContact:
+    """Solve all positions, the rows of `assembly.load`.  Raises NotConverged with the row of the position."""
+    parts = []
+    for first in range(0, len(assembly.load), at_once):
+        rows = np.arange(first, min(first + at_once, len(assembly.load)))
+        some = replace(assembly, pair=assembly.pair.rows(rows), load=assembly.load[rows])
+        try:
+            parts.append(_solved(some))
+        except NotConverged as fault:
+            raise NotConverged(str(fault), None if fault.row is None else first + fault.row) from fault
+    if len(parts) == 1:
+        return parts[0]
+
+    def joined(name: str) -> Array:
+        return np.concatenate([getattr(p, name) for p in parts])
+
+    state = ConeState(
+        **{n: np.concatenate([getattr(p.state, n) for p in parts]) for n in ConeState.__dataclass_fields__}
+    )
+    names = ("force", "pressure", "half_width", "motion", "stiffness")
+    return ConeContact(*(joined(n) for n in names), state, max(p.steps for p in parts), joined("residual"))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Elastic:
+    """Compliances at the contacts' `place` (n, C): `own` (n, C, s, s), `spread` (n, C, C) between totals, the laws.
+
+    Per position: numbers of contacts that are or were `pressed`, and the compliance `cross` (P, s, P, s) between these.
+    """
+
+    place: Array
+    own: Array
+    spread: Array
+    weights: Weights
+    law: SliceLaw
+    pressed: list[IntArray]
+    cross: list[Array]
+
+
+def _solved(assembly: ConeAssembly) -> ConeContact:
+    motion = np.zeros_like(assembly.load)
+    state = assembly.pair.at(motion)
+    elastic = _elastic(assembly, state)
+    force = _guess(assembly, state)
+    solution: lcp.Solution | None = None
+    change = np.full(len(motion), np.inf)
+    for step in range(1, STEPS + 1):
+        problem = _problem(assembly, elastic, state, force, motion)
+        solution = lcp.solve_all(
+            problem, None if solution is None else replace(solution, motion=0.0 * motion)
+        )
+        new = solution.forces[0]
+        size = np.maximum(new.max(axis=(1, 2), initial=0.0), 1e-300)
+        change = np.abs(new - force).max(axis=(1, 2), initial=0.0) / size
+        change[new.max(axis=(1, 2), initial=0.0) == 0.0] = 0.0  # nothing touches
+        motion, force = motion + solution.motion, new
+        state = assembly.pair.at(motion)
+        if np.all(change < SETTLED):
+            return _contact(assembly, elastic, state, force, motion, step)
+        elastic = _updated(assembly, elastic, state, force)
+    worst = int(np.argmax(change))
+    raise NotConverged(
+        f"contact of rollers and rim: forces still change by {change[worst]:.1e} of the largest after {STEPS} steps; "
+        "reduce the clearance or the load, or give the free motions springs",
+        worst,
+    )
+
+
+def _guess(assembly: ConeAssembly, state: ConeState) -> Array:
+    """Return forces (n, C, s) that share the load evenly among the contacts that can carry it."""
+    arms, load = state.arms, assembly.load
+    work = np.einsum("ncsk,nk->ncs", arms, load)
+    square = np.einsum("nk,nk->n", load, load)
+    carrying = work > 0.0
+    lifted = np.where(carrying, work, 0.0).sum(axis=(1, 2))
+    share = np.divide(square, lifted, out=np.zeros_like(square), where=lifted > 0.0)
+    return np.where(carrying, share[:, None, None], 0.0)
+
+
+def _elastic(assembly: ConeAssembly, state: ConeState) -> _Elastic:
+    rim = assembly.rim
+    place = rim.weights(state.place)
+    own = rim.on_itself(place)
+    if assembly.roller.own is not None:
+        own = own + assembly.roller.own
+    count = len(state.place)
+    none = [np.zeros(0, dtype=np.intp)] * count
+    return _Elastic(
+        state.place,
+        own,
+        rim.spread(place),
+        place,
+        _law(assembly, state, rim.blunt(place)),
+        none,
+        [np.zeros((0, 0, 0, 0))] * count,
+    )
+
+
+def _law(assembly: ConeAssembly, state: ConeState, blunt: Array) -> SliceLaw:
+    rim, roller, rho = assembly.rim, assembly.roller, assembly.rim.slices.middle
+    sides = [Side(rim.kernel, rim.poissons_ratio, rim.ends, blunt[..., None] * rho)]
+    if roller.kernel > 0.0 and roller.own is None:
+        radius = rho * np.tan(assembly.pair.tooth.pin_angle - assembly.pair.clearance)
+        sides.append(Side(roller.kernel, roller.poissons_ratio, (0.0, 0.0), None, np.log(2.0 * radius) - 1.0))
+    elif roller.own is not None:
+        sides.append(Side(roller.kernel, roller.poissons_ratio, roller.ends, roller.blunt))
+    return SliceLaw(rim.slices, tuple(sides), rho / state.bend[..., None])
+
+
+def _updated(assembly: ConeAssembly, elastic: _Elastic, state: ConeState, force: Array) -> _Elastic:
+    """Take compliances afresh where contacts moved, and between slices for those that are pressed."""
+    moved = np.abs(state.place - elastic.place).max(axis=1) > NEAR * float(assembly.rim.half_width.min())
+    if moved.any():
+        elastic = _elastic(assembly, state)
+    pressed, cross = list(elastic.pressed), list(elastic.cross)
+    for i, total in enumerate(force.sum(axis=-1)):
+        touching = np.flatnonzero(total > 0.0)
+        if not np.isin(touching, pressed[i]).all():
+            touching = np.union1d(touching, pressed[i])
+            w = elastic.weights
+            at = Weights(w.tooth[i, touching], w.station[i, touching], w.value[i, touching])
+            pressed[i], cross[i] = touching, assembly.rim.between(at)
+    law = _law(assembly, state, assembly.rim.blunt(elastic.weights))
+    return replace(elastic, pressed=pressed, cross=cross, law=law)
+
+
+def _problem(
+    assembly: ConeAssembly, elastic: _Elastic, state: ConeState, force: Array, motion: Array
+) -> lcp.Problem:
+    largest = force.max(axis=(1, 2), initial=0.0)
+    floor = FAINT * np.where(largest > 0.0, largest, 1.0)
+    at = np.maximum(force, floor[:, None, None])
+    approach, slope = elastic.law.approach(at)
+    gap = state.gap + approach - slope * at + _beside(elastic, force)
+    slices = np.arange(gap.shape[-1])
+    local = elastic.own.copy()
+    local[..., slices, slices] += slope
+    springs = np.broadcast_to(assembly.springs, (len(motion), *assembly.springs.shape))
+    return lcp.Problem(
+        (lcp.Group(local, gap, state.arms),),
+        elastic.spread,
+        springs,
+        assembly.load - motion @ assembly.springs,
+    )
+
+
+def _beside(elastic: _Elastic, force: Array) -> Array:
+    """Return what slices of other contacts press a slice by (n, C, s) beyond what their totals do."""
+    found = np.zeros_like(force)
+    for i, (chosen, cross) in enumerate(zip(elastic.pressed, elastic.cross, strict=True)):
+        if len(chosen):
+            f = force[i, chosen]
+            exact = np.einsum("asbt,bt->as", cross, f, optimize=True)
+            found[i, chosen] = exact - (elastic.spread[i][np.ix_(chosen, chosen)] @ f.sum(axis=-1))[:, None]
+    return found
+
+
+def _contact(
+    assembly: ConeAssembly, elastic: _Elastic, state: ConeState, force: Array, motion: Array, steps: int
+) -> ConeContact:
+    law = elastic.law
+    stiffness = np.empty((len(motion), motion.shape[1], motion.shape[1]))
+    residual = np.zeros(len(motion))
+    slope = law.approach(np.maximum(force, 1e-300))[1]
+    value = np.where(force > 0.0, law.approach(np.maximum(force, 1e-300))[0], 0.0)
+    for i in range(len(motion)):
+        matrix = _whole(elastic, i)
+        flat, gap = force[i].ravel(), state.gap[i].ravel()
+        pressed = np.flatnonzero(flat > 0.0)
+        opening = gap + matrix @ flat + value[i].ravel()
+        overlap = np.where(flat > 0.0, np.abs(opening), np.maximum(-opening, 0.0))
+        residual[i] = overlap.max() / max(float(np.abs(value[i]).max()), 1e-300)
+        inner = matrix[np.ix_(pressed, pressed)] + np.diag(slope[i].ravel()[pressed])
+        arms = state.arms[i].reshape(-1, motion.shape[1])[pressed]
+        stiffness[i] = assembly.springs + arms.T @ np.linalg.solve(inner, arms)
+    return ConeContact(
+        force, law.pressure(force), law.half_width(force), motion, stiffness, state, steps, residual
+    )
+
+
+def _whole(elastic: _Elastic, i: int) -> Array:
+    """Return the compliance (Cs, Cs) between all slices of one position, without the laws."""
+    count, slices = elastic.own.shape[1:3]
+    whole = np.repeat(np.repeat(elastic.spread[i], slices, axis=0), slices, axis=1)
+    whole = whole.reshape(count, slices, count, slices)
+    chosen = elastic.pressed[i]
+    if len(chosen):
+        whole[np.ix_(chosen, np.arange(slices), chosen, np.arange(slices))] = elastic.cross[i]
+    number = np.arange(count)
+    whole[number, :, number] = elastic.own[i]
+    return whole.reshape(count * slices, count * slices)

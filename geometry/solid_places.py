@@ -1,0 +1,116 @@
+"""Places on the surface of a solid mesh that are found by their shape: a bore, a foot, a patch round a point."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from trochoid.geometry.solid_mesh import SolidMesh, with_sets
+from trochoid.kinematics.errors import TrochoidError
+from trochoid.kinematics.types import Array, BoolArray, IntArray
+
+Triple = tuple[float, float, float]
+NEAR = 2e-3  # of the radius or the body: how far a corner of a facet may lie from the shape
+SPREAD = 12  # nodes of a patch whose size is not given
+
+
+@dataclass(frozen=True, slots=True)
+class Cylinder:
+    """Facets on a cylinder: `point` and `direction` of its axis, `radius` and, from `point` along it, `span`, m."""
+
+    point: Triple
+    direction: Triple
+    radius: float
+    span: tuple[float, float] = (-math.inf, math.inf)
+
+
+@dataclass(frozen=True, slots=True)
+class Disc:
+    """Facets in a plane across `normal`, within `radius` (m) of `point`."""
+
+    point: Triple
+    normal: Triple
+    radius: float = math.inf
+
+
+Place = Cylinder | Disc
+
+
+def find(mesh: SolidMesh, places: Mapping[str, Place]) -> SolidMesh:
+    """Return the mesh with the nodes of each place as a named set.
+
+    A facet belongs to a place when all its corners do.  Raises TrochoidError naming a place where there is none.
+    """
+    return with_sets(mesh, {name: place_nodes(mesh, place, name) for name, place in places.items()})
+
+
+def place_nodes(mesh: SolidMesh, place: Place, name: str = "the place") -> IntArray:
+    """Return the nodes of the surface's facets that lie on a cylinder or in a disc, rising."""
+    facets = mesh.facets
+    away, inside, near = _distance(mesh, place)
+    on = (np.abs(away) <= near) & inside
+    chosen = on[facets[: len(facets) // 2]].all(axis=0)
+    if not chosen.any():
+        outer = np.unique(facets)
+        closest = outer[np.argmin(np.where(inside[outer], np.abs(away[outer]), np.inf))]
+        raise TrochoidError(
+            f"{name}: no facet of the mesh lies on {place}; the nearest node, at {mesh.points[closest]} m, is "
+            f"{abs(away[closest]):.3g} m off; check the place and the unit of the mesh"
+        )
+    return np.unique(facets[:, chosen]).astype(np.intp)
+
+
+def patch(mesh: SolidMesh, point: Triple, radius: float | None = None) -> IntArray:
+    """Return the nodes of the surface within `radius` (m) of its node next to a point; None: the nearest dozen.
+
+    Raises TrochoidError when the point is off the body, by 5 % of its extent and a facet, or there are fewer than three.
+    """
+    outer = np.unique(mesh.facets)
+    distance = np.linalg.norm(mesh.points[outer] - point, axis=1)
+    nearest = outer[np.argmin(distance)]
+    if distance.min() > 0.05 * mesh.extent + _edge(mesh, nearest):
+        raise TrochoidError(
+            f"the point {point} m is {distance.min():.3g} m from the body; the nearest node of its surface is at "
+            f"{mesh.points[nearest]} m"
+        )
+    about = np.linalg.norm(mesh.points[outer] - mesh.points[nearest], axis=1)
+    chosen = outer[np.argsort(about, kind="stable")[:SPREAD]] if radius is None else outer[about <= radius]
+    if len(chosen) < 3:
+        raise TrochoidError(
+            f"only {len(chosen)} node(s) lie within {radius} m of {point} m: a patch needs at least three; give a larger "
+            "radius"
+        )
+    return np.sort(chosen).astype(np.intp)
+
+
+def _edge(mesh: SolidMesh, node: int) -> float:
+    """Return the longest edge of the facets round a node of the surface, m."""
+    corners = mesh.points[mesh.facets[: len(mesh.facets) // 2, (mesh.facets == node).any(axis=0)]]
+    return float(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=-1).max())
+
+
+def _distance(mesh: SolidMesh, place: Place) -> tuple[Array, BoolArray, float]:
+    """Return how far points (n,) are off the shape, whether (n,) they are within its ends, and what counts as on it."""
+    from_point = mesh.points - place.point
+    if isinstance(place, Cylinder):
+        axis = _unit(place.direction)
+        along = from_point @ axis
+        across = np.linalg.norm(from_point - along[:, None] * axis, axis=1)
+        near = NEAR * place.radius
+        inside = (along >= place.span[0] - near) & (along <= place.span[1] + near)
+        return across - place.radius, inside, near
+    normal = _unit(place.normal)
+    near = NEAR * min(mesh.extent, place.radius)
+    off = from_point @ normal
+    across = np.linalg.norm(from_point - off[:, None] * normal, axis=1)
+    return off, across <= place.radius + near, near
+
+
+def _unit(direction: Triple) -> Array:
+    length = float(np.linalg.norm(direction))
+    if not length > 0.0:
+        raise TrochoidError(f"a direction must have a length, given {direction}")
+    return np.asarray(direction, dtype=np.float64) / length

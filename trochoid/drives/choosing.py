@@ -1,0 +1,75 @@
+"""The automatic choice: the cheapest contact model, then the coarsest mesh, that meet the scene's tolerance.
+
+Level 0 takes every contact for one between half-planes under Hertz's pressure. How wrong that is does not depend on
+the mesh (the differences on 8 and on 32 facets per lobe agree to a hundredth), so a few positions on the coarsest
+level tell, where strips are affordable. The mesh follows from the error that two levels suggest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from trochoid.kinematics.errors import NotConverged
+
+MODEL_SHARE = 0.25  # of the tolerance that the model may take; the rest is the mesh's
+POSITIONS = 7  # at which level 0 is compared with strips; odd, so that few of them are alike
+COARSEST = 8  # facets per lobe: with 6 the order of convergence is not yet seen, and the estimate misleads
+FINEST = 64
+
+S = TypeVar("S")
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """The rung, the mesh levels that were solved on it (the last two count), the estimated error of the number
+    `of`, the largest, for the mesh, and that of the model.
+    """
+
+    rung: str
+    levels: tuple[int, ...]
+    error: float
+    of: str
+    model_error: float
+
+
+def choose(
+    tolerance: float,
+    levels: Sequence[int],
+    solve: Callable[[str, int], S],
+    worst_error: Callable[[S, S], tuple[float, str]],
+    model_error: Callable[[], float],
+    rung: str | None = None,
+) -> Chosen:
+    """Return the first of the `levels`, coarse to fine, whose estimated error meets the tolerance.
+
+    `solve(rung, level)` gives the contacts over a turn, `worst_error(fine, coarse)` the largest relative error and
+    whose it is, `model_error()` that of level 0, which is not asked for when the scene names a `rung`. Raises
+    NotConverged when no level is fine enough.
+    """
+    off = 0.0
+    if rung is None:
+        off = model_error()
+        rung, off = ("level0", off) if off <= MODEL_SHARE * tolerance else ("strips", 0.0)
+    coarse = solve(rung, levels[0])
+    error, name = float("inf"), ""
+    for count, level in enumerate(levels[1:], start=2):
+        fine = solve(rung, level)
+        error, name = worst_error(fine, coarse)
+        if error <= tolerance:
+            return Chosen(rung, tuple(levels[:count]), error, name, off)
+        coarse = fine
+    raise NotConverged(
+        f"the error of {name} is estimated at {error:.1e} with {levels[-1]} facets per lobe, more than "
+        f"accuracy.tolerance = {tolerance:g}; raise the tolerance to {error:.1e}, or name accuracy.facets_per_lobe "
+        "and accept the error"
+    )
+
+
+def doubled(first: int) -> tuple[int, ...]:
+    """Return the mesh levels that a run may try."""
+    levels = [first]
+    while 2 * levels[-1] <= FINEST:
+        levels.append(2 * levels[-1])
+    return tuple(levels)

@@ -1,0 +1,101 @@
+"""Every reason why the wheel cannot be built; none when it can."""
+
+from __future__ import annotations
+
+import math
+
+from trochoid.drives.indexer.design import Design
+from trochoid.drives.indexer.wheel import hub_angle
+from trochoid.kinematics.indexer_slot import Slot
+
+
+def faults(design: Design, slot: Slot) -> tuple[str, ...]:
+    """Return one sentence per fault: what was given, the limit, the nearest feasible value."""
+    return _shell(design) + _hub(design, slot) + _walls(design, slot) + _length(design, slot)
+
+
+def slot_length(design: Design, slot: Slot) -> float:
+    """Length (m, on the sphere) from the rim to the bottom of the slot that the pin needs."""
+    d = design.drive
+    return d.sphere_radius * (slot.farthest - slot.nearest) + d.pin_radius + d.wheel.slot_clearance
+
+
+def bottom_to_hub(design: Design, slot: Slot) -> float:
+    """Length (m, on the sphere) left between the bottom of a slot and the hub, or the axis."""
+    d = design.drive
+    return d.sphere_radius * (slot.farthest - hub_angle(design)) - (
+        d.wheel.slot_length or slot_length(design, slot)
+    )
+
+
+def between_slots(design: Design, slot: Slot) -> float:
+    """Least distance (m, on the sphere) between the middles of neighbouring slots' ends; infinite for one slot."""
+    if design.slots < 2:
+        return math.inf
+    half = 0.5 * design.drive.swing_angle
+    ends = (slot.nearest, slot.farthest)
+    return design.drive.sphere_radius * min(2.0 * math.asin(math.sin(x) * math.sin(half)) for x in ends)
+
+
+def _shell(design: Design) -> tuple[str, ...]:
+    d = design.drive
+    if d.wheel.thickness < 2.0 * d.sphere_radius:
+        return ()
+    return (
+        f"wheel.thickness = {_mm(d.wheel.thickness)}: the shell would reach beyond the centre of the sphere; "
+        f"it must be less than 2 sphere_radius = {_mm(2.0 * d.sphere_radius)}",
+    )
+
+
+def _hub(design: Design, slot: Slot) -> tuple[str, ...]:
+    d, left = design.drive, bottom_to_hub(design, slot)
+    if d.wheel.hub_radius >= d.sphere_radius:
+        return (
+            f"wheel.hub_radius = {_mm(d.wheel.hub_radius)}: the hub would hold the whole sphere; "
+            f"it must be less than sphere_radius = {_mm(d.sphere_radius)}",
+        )
+    if left > 0.0:
+        return ()
+    needed, nearest = slot_length(design, slot), d.sphere_radius * slot.nearest
+    spare = (d.wheel.slot_length or needed) - needed
+    what = "the hub" if d.wheel.hub_radius > 0.0 else "the wheel's axis"
+    if left + spare > 0.0:
+        return (
+            f"wheel.slot_length = {_mm(needed + spare)}: slots would cut {what}; "
+            f"it must be less than {_mm(needed + spare + left)}",
+        )
+    bottom = nearest - d.pin_radius - d.wheel.slot_clearance
+    if bottom > 0.0:
+        limit = d.sphere_radius * math.sin(bottom / d.sphere_radius)
+        return (
+            f"wheel.hub_radius = {_mm(d.wheel.hub_radius)}: the pin comes to {_mm(nearest)} from the wheel's axis, "
+            f"its slot would cut the hub; it must be less than {_mm(limit)}",
+        )
+    return (
+        f"pin_radius + wheel.slot_clearance = {_mm(d.pin_radius + d.wheel.slot_clearance)}: the pin comes to "
+        f"{_mm(nearest)} from the wheel's axis, its slot would cut it; they must be less than {_mm(nearest)}",
+    )
+
+
+def _walls(design: Design, slot: Slot) -> tuple[str, ...]:
+    between = between_slots(design, slot)
+    if 2.0 * design.drive.pin_radius < between:
+        return ()
+    return (
+        f"pin_radius = {_mm(design.drive.pin_radius)}: neighbouring slots, {math.degrees(design.drive.swing_angle):g}° "
+        f"apart, run into each other; it must be less than {_mm(0.5 * between)}",
+    )
+
+
+def _length(design: Design, slot: Slot) -> tuple[str, ...]:
+    given, needed = design.drive.wheel.slot_length, slot_length(design, slot)
+    if given is None or given >= needed:
+        return ()
+    return (
+        f"wheel.slot_length = {_mm(given)}: the pin would strike the bottom of its slot; "
+        f"it must be at least {_mm(needed)}",
+    )
+
+
+def _mm(length: float) -> str:
+    return f"{1e3 * length:.6g} mm"

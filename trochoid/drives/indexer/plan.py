@@ -1,0 +1,42 @@
+"""Which stages each quantity needs, and what they cost before anything runs."""
+
+from __future__ import annotations
+
+from trochoid.clock import Clock
+from trochoid.drives.indexer.stages import Stages
+from trochoid.drives.planning import planned
+from trochoid.plan import Plan
+from trochoid.scene.drive_indexer import IndexerScene
+
+_GEOMETRY = ("synthesis", "geometry")
+_FORCES = (*_GEOMETRY, "mass", "forces")
+
+STAGES_OF: dict[str, tuple[str, ...]] = {
+    "ratio": ("synthesis",),
+    "member_speeds": ("synthesis", "motion"),
+    "indexing_motion": ("synthesis", "motion"),
+    "solutions": ("synthesis",),
+    "profile": _GEOMETRY,
+    "geometry_quality": ("synthesis", "motion", "geometry"),
+    "contact_force_max": _FORCES,
+    "reactions": _FORCES,
+    "mass": (*_GEOMETRY, "mass"),
+}
+
+WHY = {
+    "synthesis": "all pin paths without hard shock, and the one chosen",
+    "motion": "peaks and constants of the wheel's motion, beside a Geneva wheel's",
+    "geometry": "can it be made: length of slots, walls, hub",
+    "mass": "mass and inertia of the wheel",
+    "forces": "pin force, mesh force and input torque over an index",
+}
+
+
+def plan(scene: IndexerScene) -> Plan:
+    """Return what a run would do; raises Infeasible when no pin path serves or the wheel cannot be built."""
+    made = planned(scene, WHY, STAGES_OF, {"synthesis": 0.03})
+    stages = Stages(scene, Clock())
+    stages.design  # noqa: B018 - raises Infeasible with what binds and the nearest swing
+    if any(stage.needed and stage.name == "geometry" for stage in made.stages):
+        stages.feasible  # noqa: B018 - raises Infeasible with every reason
+    return made

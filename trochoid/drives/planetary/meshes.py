@@ -1,0 +1,30 @@
+"""Each mesh of one planet by itself: its stiffness over a base pitch under an even share of the torque."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from trochoid.drives.planetary.bodies import Level
+from trochoid.drives.planetary.contact import Load, hands, wheel_pair
+from trochoid.drives.planetary.design import Design
+from trochoid.fem.gear_path import Mating, Path, base_pitch, solve_path
+
+
+@dataclass(frozen=True, slots=True)
+class Meshes:
+    """Paths of sun and planet, and of planet and ring."""
+
+    outer: Path
+    inner: Path
+
+
+def meshes(design: Design, level: Level, load: Load, positions: int) -> Meshes:
+    """Solve both meshes at positions over a base pitch, centres held. Raises NotConverged."""
+    d, hand = design.drive, hands(load)
+    found = []
+    for outer, own in ((True, hand[0]), (False, hand[1])):
+        wheels = wheel_pair(level, outer)
+        force = abs(load.sun) / (d.planets * level.wheels[0].flank.base_radius)
+        mating = Mating(wheels, d.center_distance, force * wheels[1].flank.base_radius, own)
+        found.append(solve_path(mating, base_pitch(mating, positions)))
+    return Meshes(*found)

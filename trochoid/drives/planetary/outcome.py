@@ -1,0 +1,119 @@
+"""Everything a run of a planetary set hands over: quantities, pictures, checks, warnings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from trochoid.drives.planetary import headline
+from trochoid.drives.planetary.plan import WHY
+from trochoid.drives.planetary.stages import Stages
+from trochoid.results.outcome import Check, Outcome, Quantity, Stage
+
+BALANCE = 1e-9
+NOTICED = 1e-8  # m of play that is worth a word
+
+
+def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
+    """Gather what the stages hold; no stage is started here but what the figures need."""
+    ran = tuple(stages.clock.seconds)
+    words = Outcome(
+        scene=stages.scene.model_dump(mode="json"),
+        quantities=quantities,
+        not_needed=tuple(name for name in WHY if name not in ran),
+        title=headline.title(stages),
+        facts=headline.facts(stages),
+        not_simulated=headline.not_simulated(stages.scene),
+    )
+    if "geometry" in ran:
+        words = replace(words, warnings=tuple(warnings(stages)))
+    if "contact" in ran:
+        words = replace(words, checks=(*checks(stages), *contact_checks(stages)))
+    elif "forces" in ran:
+        words = replace(words, checks=checks(stages))
+    if "profiles" in ran:
+        with stages.clock.stage("figures"):
+            from trochoid.drives.planetary.dataset import dataset
+            from trochoid.drives.planetary.picture import drawing
+            from trochoid.drives.planetary.plots import plots
+
+            words = replace(
+                words, dataset=dataset(stages, ran), drawing=drawing(stages), plots=plots(stages, ran)
+            )
+    elif "blocking" in ran:
+        with stages.clock.stage("figures"):
+            from trochoid.drives.planetary.plots import plots
+
+            words = replace(words, plots=plots(stages, ran))
+    seconds = stages.clock.seconds
+    return replace(words, stages=tuple(Stage(name, seconds[name]) for name in seconds))
+
+
+def checks(stages: Stages) -> tuple[Check, ...]:
+    """Return the balances of the members."""
+    torque, power = stages.rigid.residuals
+    return (
+        Check("torques of the members balance", torque, BALANCE, torque <= BALANCE),
+        Check("power in is power out", power, BALANCE, power <= BALANCE),
+    )
+
+
+def contact_checks(stages: Stages) -> tuple[Check, ...]:
+    """Return the balances of what was solved, recomputed from the forces on the teeth."""
+    from trochoid.drives.planetary import balance
+
+    series = stages.contact.fine
+    found = {
+        "no flank penetrates": series.penetration,
+        "contact problem is solved": series.imbalance,
+        "every planet is in equilibrium": balance.planet_residual(series),
+        "the driven member carries its load": balance.load_residual(series),
+        "torques about the main axis balance": balance.torque_residual(series),
+        "power goes out or into pressed teeth": balance.power_residual(series, stages.speeds),
+    }
+    if series.layout.floating:
+        found["bearings hold what the teeth press"] = balance.seat_residual(stages.feasible, series)
+    return tuple(Check(name, value, BALANCE, value <= BALANCE) for name, value in found.items())
+
+
+def warnings(stages: Stages) -> Iterator[str]:
+    """Yield what a reader must know before trusting the numbers."""
+    made = stages.feasible
+    set_, x = made.geometry, made.given.shifts
+    for who, pair, have, need, key, fit in (
+        ("sun and planet", set_.outer, x[0] + x[1], made.sums[0], "x_planet", made.sums[0] - x[0]),
+        ("planet and ring", set_.inner, x[2] - x[1], made.sums[1], "x_ring", made.sums[1] + x[1]),
+    ):
+        play = float(pair.backlash)
+        if abs(play) < NOTICED:
+            continue
+        said = f"{1e6 * abs(play):.2g} µm {'of play' if play > 0.0 else 'too tight, back flanks overlap'}"
+        yield (
+            f"{who}: the shifts' sum is {have:.6g}, and the centre distance asks for {need:.7g}: {said} along the line "
+            f"of action; {key} = {fit:.7g} meshes without play"
+        )
+    from trochoid.geometry.planetary_quality import quality
+
+    radial = quality(made.geometry, made.limits)["radial assembly of planet and ring"]
+    if not radial.fulfilled:
+        yield "planets cannot be pushed into the ring radially, only along the axis"
+    yield from _unheeded(stages)
+    if "contact" in stages.clock.seconds and stages.contact.doubt:
+        yield (
+            "the pressure of some contacts could not be resolved, and level0 was taken, whose error is not known here: "
+            + stages.contact.doubt
+        )
+
+
+def _unheeded(stages: Stages) -> Iterator[str]:
+    """Yield what the scene gives and no listed effect heeds."""
+    scene, d = stages.scene, stages.scene.drive
+    if not scene.has("elastic_contact"):
+        return
+    reliefs = (d.sun.tip_relief, d.planet.tip_relief, d.ring.tip_relief)
+    for given, effect, what in (
+        (any(reliefs), "clearance", "tip relief"),
+        (any(d.planet.position_errors), "position_errors", "position errors of planets"),
+    ):
+        if given and not scene.has(effect):
+            yield f'the scene gives {what}, but the effect "{effect}" is not listed: it is not in the gaps'

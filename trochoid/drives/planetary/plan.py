@@ -1,0 +1,65 @@
+"""Which stages each quantity needs, and what they cost before anything runs."""
+
+from __future__ import annotations
+
+from trochoid.drives.planning import planned
+from trochoid.plan import Plan
+from trochoid.scene.drive_planetary import PlanetaryScene
+
+_GEOMETRY = ("geometry",)
+_FORCES = ("kinematics", "geometry", "forces")
+_MASS = ("geometry", "profiles", "mass")
+
+_CONTACT = ("kinematics", "geometry", "profiles", "forces", "bodies", "contact")
+
+STAGES_OF: dict[str, tuple[str, ...]] = {
+    "ratio": ("kinematics",),
+    "member_speeds": ("kinematics",),
+    "profile": ("geometry", "profiles"),
+    "geometry_quality": _GEOMETRY,
+    "blocking_contour": ("geometry", "blocking"),
+    "contact_ratio": _GEOMETRY,
+    "load_sharing": _CONTACT,
+    "contact_force_max": _CONTACT,
+    "contact_pressure_max": _CONTACT,
+    "transmission_error": _CONTACT,
+    "mesh_stiffness": (*_CONTACT, "meshes"),
+    "torsional_stiffness": _CONTACT,
+    "reactions": _FORCES,
+    "bearing_loads": _FORCES,
+    "mass": _MASS,
+}
+
+WHY = {
+    "kinematics": "speeds of all members from one constraint matrix",
+    "geometry": "can it be made and assembled: 23 conditions, coaxiality, neighbours",
+    "profiles": "exact teeth as rack and shaper leave them",
+    "blocking": "which shifts are possible, and the best that stay coaxial",
+    "mass": "masses and inertias from exact outlines",
+    "forces": "equilibrium of rigid members",
+    "bodies": "sun, planet and ring meshed and pressed, on two levels for the error",
+    "contact": "all pairs of teeth of all planets together over a pitch, on both levels",
+    "meshes": "stiffness of each mesh by itself",
+}
+
+POSITION = {"level0": 4e-3, "strips": 7e-3}  # seconds for one planet
+
+
+def plan(scene: PlanetaryScene) -> Plan:
+    """Return what a run would do."""
+    d, positions = scene.drive, scene.ask.positions
+    heavy = _MASS if scene.has("inertia") else ()  # a planet's mass presses on its bearing
+    stages = {name: needed + heavy if "forces" in needed else needed for name, needed in STAGES_OF.items()}
+    elastic = scene.has("elastic_contact")
+    if elastic:
+        stages["bearing_loads"] = (*_CONTACT, *heavy)
+    model = scene.accuracy.model or "strips"
+    seconds = {
+        "blocking": 0.4,
+        "mass": 0.02,
+        "bodies": 0.3 + 0.02 * (d.z_sun + d.z_planet + d.z_ring),
+        "contact": 2 * positions * d.planets * POSITION[model],
+        "meshes": 4 * positions * 1e-3,
+    }
+    named = scene.accuracy.model or "level0, or strips where that is not within the tolerance"
+    return planned(scene, WHY, stages, seconds, named if elastic else "closed forms", 300.0 if elastic else 100.0)

@@ -1,0 +1,207 @@
+"""The stages of a run of a planetary set, each computed when it is first asked for; heavy imports are inside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from trochoid.clock import Clock
+from trochoid.drives.choosing import POSITIONS, Chosen, choose
+from trochoid.drives.mesh_error import Pair
+from trochoid.drives.planetary.design import Design, design
+from trochoid.kinematics.errors import Infeasible, NotConverged
+from trochoid.kinematics.train import Speeds, planetary_train, speeds
+from trochoid.scene.drive_planetary import PlanetaryScene
+
+if TYPE_CHECKING:
+    from trochoid.drives.planetary.bodies import Level
+    from trochoid.drives.planetary.blocking import Blocking
+    from trochoid.drives.planetary.mass import Masses
+    from trochoid.drives.planetary.contact import Load
+    from trochoid.drives.planetary.meshes import Meshes
+    from trochoid.drives.planetary.rigid import Rigid
+    from trochoid.drives.planetary.series import Series
+    from trochoid.geometry.planetary_curves import Members
+
+LEVELS = (6, 12, 24)  # facets per flank; with 4 the fillets of a ring are too coarse for its elements
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Contacts over a pitch on the finer of two mesh levels and on the coarser one, and these levels; `doubt`: why the
+    error of level 0 is not known.
+    """
+
+    fine: Series
+    coarse: Series | None
+    level: Level
+    coarse_level: Level | None
+    doubt: str = ""
+
+
+@dataclass(frozen=True)
+class Stages:
+    """What a scene's quantities are made from; every stage is a value, computed once."""
+
+    scene: PlanetaryScene
+    clock: Clock
+
+    @cached_property
+    def speeds(self) -> Speeds:
+        """Speeds of all members over that of the driving one."""
+        d = self.scene.drive
+        with self.clock.stage("kinematics"):
+            return speeds(planetary_train(d.z_sun, d.z_planet, d.z_ring), d.fixed, d.driving, d.driven)
+
+    @cached_property
+    def feasible(self) -> Design:
+        """The set, once its geometry has been found possible; raises Infeasible with every reason."""
+        from trochoid.drives.planetary.feasible import faults
+
+        with self.clock.stage("geometry"):
+            made = design(self.scene)
+            reasons = faults(made)
+            if reasons:
+                raise Infeasible("\n".join(reasons))
+        return made
+
+    @cached_property
+    def curves(self) -> Members:
+        """Exact boundaries of sun, planet and ring."""
+        from trochoid.geometry.planetary_curves import members
+
+        made = self.feasible
+        with self.clock.stage("profiles"):
+            return members(made.given, made.rounding)
+
+    @cached_property
+    def blocking(self) -> Blocking:
+        """Blocking contours, the coaxiality line and the best shifts on it."""
+        from trochoid.drives.planetary.blocking import blocking
+
+        made = self.feasible
+        with self.clock.stage("blocking"):
+            return blocking(made)
+
+    @cached_property
+    def masses(self) -> Masses:
+        """Masses of sun, planet and ring from their exact outlines."""
+        from trochoid.drives.planetary.mass import masses
+
+        made, curves = self.feasible, self.curves
+        with self.clock.stage("mass"):
+            return masses(made, curves)
+
+    @cached_property
+    def rigid(self) -> Rigid:
+        """Torques and forces of rigid members, all planets alike."""
+        from trochoid.drives.planetary.rigid import rigid
+
+        made, turning = self.feasible, self.speeds
+        planet = self.masses.planet.mass if self.scene.has("inertia") else 0.0
+        with self.clock.stage("forces"):
+            return rigid(made, turning, planet)
+
+    @property
+    def rung(self) -> str:
+        """The contact model: named by the scene, or the cheapest that its tolerance allows."""
+        return self.contact.fine.rung
+
+    @property
+    def load(self) -> Load:
+        """What the contacts carry; raises Infeasible without a torque."""
+        from trochoid.drives.planetary.contact import Load
+
+        found = self.rigid
+        if found.torques["sun"] == 0.0:
+            raise Infeasible("operation.output_torque = 0: no flank is pressed; take a torque above 0")
+        return Load(found.torques[self.scene.drive.driven], found.torques["sun"], found.centrifugal)
+
+    def level(self, facets: int) -> Level:
+        """Mesh and press the wheels with so many facets per flank."""
+        made, curves = self.feasible, self.curves
+        with self.clock.stage("bodies"):
+            from trochoid.drives.planetary.bodies import build_level
+
+            return build_level(made, curves, facets)
+
+    def series(self, level: Level, rung: str, positions: int | None = None) -> Series:
+        """Solve positions over a pitch on a level."""
+        made, turning, load = self.feasible, self.speeds, self.load
+        with self.clock.stage("contact"):
+            from trochoid.drives.planetary.contact import angles
+            from trochoid.drives.planetary.series import solve_series
+
+            at = angles(made, turning, positions or self.scene.ask.positions)
+            return solve_series(made, turning, level, load, at, rung)
+
+    def model_error(self, level: Level) -> float:
+        """Return how far level 0 is from strips at a few positions; raises NotConverged where strips find nothing."""
+        from trochoid.drives.planetary.estimate import model_error
+
+        return model_error(*(self.series(level, rung, POSITIONS) for rung in ("level0", "strips")))
+
+    @property
+    def levels(self) -> tuple[int, ...]:
+        """The mesh levels that a run may try: the coarser of two first."""
+        given = self.scene.accuracy.facets_per_lobe
+        return LEVELS if given is None else (max(3, given // 2), given)
+
+    @cached_property
+    def contact(self) -> Solved:
+        """Contacts over a pitch, on the coarsest pair of levels whose estimated error meets the tolerance.
+
+        Raises NotConverged when the finest pair does not.
+        """
+        from trochoid.drives.planetary.estimate import worst_error
+
+        accuracy, levels, faults = self.scene.accuracy, self.levels, list[str]()
+        built: dict[int, Level] = {}
+        solved: dict[int, Series] = {}
+
+        def on(facets: int) -> Level:
+            if facets not in built:
+                built[facets] = self.level(facets)
+            return built[facets]
+
+        def solve(rung: str, facets: int) -> Series:
+            solved[facets] = self.series(on(facets), rung)
+            return solved[facets]
+
+        def off() -> float:
+            return self.model_error(on(levels[0]))
+
+        def best(rung: str | None) -> Chosen:
+            tolerance = accuracy.tolerance if accuracy.facets_per_lobe is None else float("inf")
+            return choose(tolerance, levels, solve, worst_error, off, rung)
+
+        try:
+            found = best(accuracy.model)
+        except NotConverged as fault:
+            if accuracy.model is not None or fault.row is None and "accuracy.tolerance" in str(fault):
+                raise
+            faults.append(str(fault))  # strips do not cover every relief; level 0 does, with an error unknown
+            found = best("level0")
+        coarse, fine = found.levels[-2:]
+        return Solved(solved[fine], solved[coarse], built[fine], built[coarse], "".join(faults))
+
+    @cached_property
+    def difference(self) -> float:
+        """Largest relative difference of the two mesh levels among what the answers rest on."""
+        from trochoid.drives.planetary.estimate import differences
+
+        solved = self.contact
+        return 0.0 if solved.coarse is None else max(differences(solved.fine, solved.coarse).values())
+
+    @cached_property
+    def meshes(self) -> Pair[Meshes]:
+        """Each mesh of one planet by itself, under its even share of the torque."""
+        solved, load = self.contact, self.load
+        with self.clock.stage("meshes"):
+            from trochoid.drives.planetary.meshes import meshes
+
+            def made(level: Level) -> Meshes:
+                return meshes(self.feasible, level, load, self.scene.ask.positions)
+
+            return Pair(made(solved.level), None if solved.coarse_level is None else made(solved.coarse_level))

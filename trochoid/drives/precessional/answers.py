@@ -1,0 +1,13 @@
+"""The quantities of a precessional drive, by their public names."""
+
+from __future__ import annotations
+
+from trochoid.drives.lazy import answers
+
+QUANTITIES = answers(
+    "trochoid.drives.precessional",
+    {
+        "answers_geometry": ("ratio", "member_speeds", "profile", "geometry_quality", "contact_ratio"),
+        "answers_dynamics": ("reactions", "balance", "vibration_velocity", "vibration_zone", "mass"),
+    },
+)

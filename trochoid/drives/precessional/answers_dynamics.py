@@ -1,0 +1,130 @@
+"""Answers about reactions, balance, the casing's vibration, and masses."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from trochoid.drives.exact import exact
+from trochoid.drives.precessional.stages import Stages
+from trochoid.drives.precessional.turn import FORCES, MODELS, MOMENTS
+from trochoid.dynamics.vibration import Vibration
+from trochoid.kinematics.types import Array
+from trochoid.results.outcome import Quantity
+
+STATISTICS: dict[str, Callable[[Array], float]] = {
+    "mean": lambda a: float(a.mean()),
+    "min": lambda a: float(a.min()),
+    "max": lambda a: float(a.max()),
+}
+UNITS = dict.fromkeys(FORCES, "N") | dict.fromkeys(MOMENTS, "N*m")
+
+
+def reactions(s: Stages) -> Quantity:
+    """Least, mean and largest of all reactions over a turn of the shaft, by model."""
+    parts: dict[str, Mapping[str, Quantity]] = {
+        model: {
+            f"{name}_{key}": Quantity(_settled(statistic(size), size), UNITS[name], None, model)
+            for name, size in turn.sizes.items()
+            for key, statistic in STATISTICS.items()
+        }
+        for model, turn in s.reactions.items()
+    }
+    return Quantity(
+        parts=parts,
+        note="inertia forces alone, over 0 to 360 deg by 1 deg; rigid: Newton-Euler, printed: the paper's equations",
+    )
+
+
+def _settled(value: float, values: Array) -> float:
+    """Return 0 for what is only rounding beside the largest of `values`."""
+    return value if abs(value) > 1e-12 * float(np.abs(values).max(initial=0.0)) else 0.0
+
+
+def balance(s: Stages) -> Quantity:
+    """What the counterweight must be, what it leaves unbalanced, and what no counterweight can balance."""
+    from trochoid.drives.precessional.balance import (
+        balance_plane,
+        couple_lines,
+        mean_product,
+        remaining_couple,
+        static_moment,
+    )
+    from trochoid.drives.precessional.mechanism import mass_moments
+
+    drive, speed = s.mechanism, s.design.speed
+    needed, weight = static_moment(drive), mass_moments(drive)[2]
+    force = abs(needed - weight) * speed**2
+    size = max(abs(needed), abs(weight)) * speed**2
+    parts: dict[str, Quantity | Mapping[str, Quantity]] = {
+        "static_moment_needed": _one(1e3 * needed, "kg*mm"),
+        "static_moment_given": _one(1e3 * weight, "kg*mm"),
+        "unbalanced_force": _one(force if force > 1e-12 * size else 0.0, "N"),
+        "mean_couple_of_satellite": {
+            name: _one(-(speed**2) * mean_product(drive, model), "N*m", name)
+            for name, model in MODELS.items()
+        },
+    }
+    if drive.counterweight.mass > 0.0:
+        parts["counterweight_radius_needed"] = _one(1e3 * needed / drive.counterweight.mass, "mm")
+    if weight != 0.0:
+        parts["plane_needed"] = {
+            name: _one(1e3 * balance_plane(drive, model), "mm", name) for name, model in MODELS.items()
+        }
+        parts["plane_given"] = _one(1e3 * drive.counterweight.z, "mm")
+    for line in couple_lines(drive, speed):
+        where = "about_z" if line.axis == "z" else "forward" if line.order > 0 else "backward"
+        parts[f"couple_{where}_at_{abs(line.order)}_of_input_speed"] = _one(line.couple, "N*m")
+    parts["couple_never_balanced"] = _one(remaining_couple(drive, speed), "N*m")
+    return Quantity(parts=parts, note="planes from O; couples about O in the fixed frame, amplitudes")
+
+
+def _one(value: float, unit: str, model: str = "exact") -> Quantity:
+    return Quantity(value, unit, 0.0, model)
+
+
+def vibration_velocity(s: Stages) -> Quantity:
+    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; the printed model's worst one beside it."""
+    found = s.vibration
+    rigid, printed = found.models["rigid"], found.models["printed"]
+    parts: dict[str, Mapping[str, Quantity]] = {}
+    for i, point in enumerate(rigid.points):
+        entries = {axis: _velocity(rigid, i, j) for j, axis in enumerate("xyz")}
+        entries["worst"] = _velocity(rigid, i)
+        entries["worst_printed"] = _velocity(printed, i, model="printed")
+        parts[point.name] = entries
+    return Quantity(
+        parts=parts, note="by the vector sum of all reactions on the casing; all its lines are resolved"
+    )
+
+
+def _velocity(found: Vibration, point: int, axis: int | None = None, model: str = "rigid") -> Quantity:
+    rms = found.rms[point]
+    return Quantity(1e3 * float(rms.max() if axis is None else rms[axis]), "mm/s", None, model)
+
+
+def vibration_zone(s: Stages) -> Quantity:
+    """Zone by the standard that applies, or the statement that none does."""
+    zone = s.vibration.zone
+    return Quantity(zone.letter or "none applies", "", None, zone.standard, note=zone.reason)
+
+
+def mass(s: Stages) -> Quantity:
+    """Masses as given, and the specific mass in kg per N·m of output torque."""
+    d = s.feasible.scene.drive
+    members = {
+        "satellite": d.satellite.mass,
+        "input_shaft": d.input_shaft.mass,
+        "counterweight": 0.0 if d.counterweight is None else d.counterweight.mass,
+        "output_shaft": 0.0 if d.output_shaft is None else d.output_shaft.mass,
+        "casing": 0.0 if s.scene.casing is None else s.scene.casing.mass,
+    }
+    values = {name: (value, "kg") for name, value in members.items()}
+    values["total"] = (math.fsum(members.values()), "kg")
+    torque = s.scene.operation.output_torque
+    if torque > 0.0:
+        values["specific"] = (values["total"][0] / torque, "kg/(N*m)")
+    note = "as the scene gives them" if torque > 0.0 else "specific mass needs a torque above zero"
+    return Quantity(parts=exact(values).parts, note=note)

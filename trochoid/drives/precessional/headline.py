@@ -1,0 +1,83 @@
+"""The words at the head of the report: what drive this is, its main data, and what its numbers leave out."""
+
+from __future__ import annotations
+
+import math
+
+from trochoid.drives.exact import RPM, millimetres
+from trochoid.drives.precessional.stages import Stages
+from trochoid.results.outcome import Quantity
+from trochoid.scene.drive_precessional import PrecessionalScene
+
+ABSENT_EFFECTS = {
+    "inertia": "No member has mass in the equations: there are no reactions and there is no vibration.",
+    "casing_on_mounts": "The casing stands still: there is no vibration velocity and no zone to judge it by.",
+}
+
+NEVER_SIMULATED = {
+    "load": (
+        "Reactions are those of inertia alone: the output torque loads teeth and bearings besides, steadily in the "
+        "frame of the input shaft, and is not in these numbers."
+    ),
+    "elastic contact of the teeth": (
+        "The teeth are rigid: no load sharing, no contact pressure, no stiffness. Their inertia load acts as one "
+        "force at the middle of the teeth on the instantaneous axis."
+    ),
+    "friction": "Teeth, joints and bearings have no friction: no losses and no efficiency.",
+    "clearance": "Teeth and bearings fit without play: no lost motion, no shocks on reversal.",
+    "elasticity of shafts, bearings and casing": (
+        "All members are rigid: no natural modes but those of the casing on its mounts."
+    ),
+    "uneven output": "The joint at O is a constant-velocity one that gives way along z: it holds the satellite "
+    "without a moment across its axis.",
+    "manufacturing errors": "Pins and lobes are alike and in place.",
+}
+
+MODELS = (
+    "Rigid: Newton's and Euler's equations of all members, with a tooth force that does no work. Printed: the "
+    "equations as the paper has them, which leave out the gyroscopic terms of the satellite and the tooth force. "
+    "Forces of A, B and O are in the frame of the input shaft."
+)
+
+
+def title(stages: Stages) -> str:
+    """Return the name of the drive, as in "Precessional drive K-H-V 15/14"."""
+    drive = stages.scene.drive
+    return f"Precessional drive K-H-V {drive.z_wheel}/{drive.z_satellite}"
+
+
+def facts(stages: Stages) -> dict[str, Quantity]:
+    """Return the main data of the drive, in the engineer's units; runs no more than the kinematics."""
+    scene, made = stages.scene, stages.design
+    operation, tooth, teeth = scene.operation, made.tooth, made.teeth
+    found = {
+        "Wheel / satellite": Quantity(f"{scene.drive.z_wheel} / {scene.drive.z_satellite}"),
+        "Ratio": Quantity(float(made.nutation.ratio)),
+        "Nutation angle θ": _degrees(made.nutation.angle),
+    }
+    if tooth is not None and teeth is not None:
+        found |= {
+            "Pins": Quantity(f"{tooth.pins} on the {teeth.pins_on}"),
+            "Lobes": Quantity(f"{tooth.lobes}, {'outside' if tooth.hole else 'inside'} the pins"),
+            "Polar angle of the pins α": _degrees(tooth.polar_angle),
+            "Half angle of a pin r": _degrees(tooth.pin_angle),
+            "Teeth from O": Quantity(
+                f"{millimetres(teeth.inner_radius)} … {millimetres(teeth.outer_radius)} mm"
+            ),
+        }
+    return found | {
+        "Input speed": Quantity(operation.input_speed / RPM, "rpm"),
+        "Output speed": Quantity(made.output_speed / RPM, "rpm"),
+        "Output torque": Quantity(operation.output_torque, "N*m"),
+        "Power": Quantity(1e-3 * operation.output_torque * abs(made.output_speed), "kW"),
+    }
+
+
+def not_simulated(scene: PrecessionalScene) -> dict[str, str]:
+    """Return each effect that is not in the equations with what its absence means: unlisted ones first."""
+    unlisted = {name: said for name, said in ABSENT_EFFECTS.items() if not scene.has(name)}
+    return unlisted | NEVER_SIMULATED
+
+
+def _degrees(angle: float) -> Quantity:
+    return Quantity(float(f"{math.degrees(angle):.12g}"), "deg")

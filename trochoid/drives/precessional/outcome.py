@@ -1,0 +1,65 @@
+"""Everything a precessional run hands over: quantities, series, pictures, checks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from trochoid.drives.precessional import headline
+from trochoid.drives.precessional.plan import WHY
+from trochoid.drives.precessional.stages import Stages
+from trochoid.results.outcome import Check, Outcome, Quantity, Stage
+
+BALANCE = 1e-9
+PENETRATION = 1e-12  # rad
+
+
+def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
+    """Gather what the stages hold; no stage is started here but the figures' own."""
+    ran = tuple(stages.clock.seconds)
+    words = Outcome(
+        scene=stages.scene.model_dump(mode="json"),
+        quantities=quantities,
+        not_needed=tuple(name for name in WHY if name not in ran),
+        checks=checks(stages, ran),
+        title=headline.title(stages),
+        facts=headline.facts(stages),
+        not_simulated=headline.not_simulated(stages.scene),
+    )
+    if "reactions" in ran:
+        words = replace(words, notes={"Rigid and printed reactions": headline.MODELS})
+    if {"penetration", "reactions", "vibration"} & set(ran) or "profile" in quantities:
+        words = replace(words, **_pictures(stages, ran, "profile" in quantities))
+    seconds = stages.clock.seconds
+    return replace(words, stages=tuple(Stage(name, seconds[name]) for name in seconds))
+
+
+def _pictures(stages: Stages, ran: tuple[str, ...], profile: bool) -> dict[str, Any]:
+    """Return the series of what ran and the pictures of the drive."""
+    with stages.clock.stage("figures"):
+        from trochoid.drives.precessional.dataset import dataset
+        from trochoid.drives.precessional.picture import space, undercut_map
+
+        tooth = stages.design.tooth
+        maps = () if tooth is None or "penetration" not in ran else (undercut_map(tooth),)
+        return {"dataset": dataset(stages, ran, profile), "plots": (space(stages.design), *maps)}
+
+
+def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
+    """Return the balances of what was computed."""
+    found = []
+    if "penetration" in ran and stages.penetration is not None:
+        found.append(
+            _check("no pin cuts into a flank at any input angle (rad)", stages.penetration, PENETRATION)
+        )
+    if "reactions" in ran:
+        from trochoid.drives.precessional.turn import residual
+
+        off = residual(stages.mechanism, stages.design.speed, stages.reactions["rigid"])
+        found.append(_check("rigid reactions on the casing sum to the members' inertia", off, BALANCE))
+    return tuple(found)
+
+
+def _check(name: str, value: float, limit: float) -> Check:
+    return Check(name, value, limit, bool(value <= limit))

@@ -1,0 +1,78 @@
+"""The stages of a precessional run, each computed when it is first asked for; heavy imports are inside."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from trochoid.clock import Clock
+from trochoid.drives.precessional.design import Design, design
+from trochoid.kinematics.errors import Infeasible
+from trochoid.scene.drive_precessional import PrecessionalScene
+
+if TYPE_CHECKING:
+    from trochoid.drives.precessional.mechanism import PrecessionalDrive
+    from trochoid.drives.precessional.turn import Turn
+    from trochoid.drives.precessional.vibration import CasingVibration
+
+
+@dataclass(frozen=True)
+class Stages:
+    """What a scene's quantities are made from; every stage is a value, computed once."""
+
+    scene: PrecessionalScene
+    clock: Clock
+
+    @cached_property
+    def design(self) -> Design:
+        """Nutating pair and sphere tooth."""
+        with self.clock.stage("kinematics"):
+            return design(self.scene)
+
+    @cached_property
+    def feasible(self) -> Design:
+        """The design, once its teeth have been found possible; raises Infeasible with every reason."""
+        from trochoid.drives.precessional.feasible import faults
+
+        made = self.design
+        with self.clock.stage("geometry"):
+            reasons = faults(made)
+            if reasons:
+                raise Infeasible("\n".join(reasons))
+        return made
+
+    @cached_property
+    def mechanism(self) -> PrecessionalDrive:
+        """Masses and places."""
+        made = self.feasible
+        with self.clock.stage("mass"):
+            return made.mechanism
+
+    @cached_property
+    def penetration(self) -> float | None:
+        """How deep (rad) a pin cuts into a flank at any crank angle, by brute force; None without teeth."""
+        tooth = self.feasible.tooth
+        with self.clock.stage("penetration"):
+            from trochoid.kinematics.sphere_tooth_clearance import penetration
+
+            return None if tooth is None else penetration(tooth)
+
+    @cached_property
+    def reactions(self) -> Mapping[str, Turn]:
+        """Reactions over a turn, by the models "rigid" and "printed"."""
+        drive, made = self.mechanism, self.design
+        with self.clock.stage("reactions"):
+            from trochoid.drives.precessional.turn import turns
+
+            return turns(drive, made.speed)
+
+    @cached_property
+    def vibration(self) -> CasingVibration:
+        """Vibration velocity of the casing and its zone."""
+        drive, made = self.mechanism, self.design
+        with self.clock.stage("vibration"):
+            from trochoid.drives.precessional.vibration import vibration
+
+            return vibration(made, drive)

@@ -1,0 +1,21 @@
+"""Numbers with the error that two mesh levels suggest, shared by all answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from trochoid.drives.mesh_error import scalar_error
+from trochoid.drives.rv.stages import Stages
+from trochoid.results.outcome import Quantity
+
+if TYPE_CHECKING:
+    from trochoid.drives.rv.series import Series
+
+
+def over_turn(s: Stages, get: Callable[[Series], float], unit: str) -> Quantity:
+    """Return a number of the contacts over a turn of the crankshafts; its error from every fourth position."""
+    value, both = get(s.contact.fine), s.contact.pair.map(get)
+    coarse = both.fine if both.coarse is None else both.coarse
+    error = scalar_error(both.fine, coarse, s.difference)
+    return Quantity(value, unit, error, s.rung)

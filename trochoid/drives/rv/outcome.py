@@ -1,0 +1,82 @@
+"""Everything an RV run hands over: quantities, series, drawing, checks, warnings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from trochoid.drives.rv import headline
+from trochoid.drives.rv.plan import WHY
+from trochoid.drives.rv.stages import Stages
+from trochoid.results.outcome import Check, Outcome, Quantity, Stage
+
+BALANCE = 1e-9
+SUM = 1e-3  # of strips, whose tangent is not quite Hertz's
+
+
+def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
+    """Gather what the stages hold; no stage is started here but the figures' own."""
+    ran = tuple(stages.clock.seconds)
+    made = Outcome(
+        scene=stages.scene.model_dump(mode="json"),
+        quantities=quantities,
+        not_needed=tuple(name for name in WHY if name not in ran),
+        title=headline.title(stages),
+        facts=headline.facts(stages),
+        not_simulated=headline.not_simulated(stages.scene, "contact" in ran),
+    )
+    if "contact" in ran:
+        made = replace(made, checks=checks(stages), warnings=warnings(stages))
+    if "geometry" in ran:
+        with stages.clock.stage("figures"):
+            from trochoid.drives.rv.dataset import dataset
+            from trochoid.drives.rv.picture import drawing, plots
+
+            made = replace(
+                made, dataset=dataset(stages, ran), drawing=drawing(stages), plots=plots(stages.design)
+            )
+    seconds = stages.clock.seconds
+    return replace(made, stages=tuple(Stage(name, seconds[name]) for name in seconds))
+
+
+def checks(stages: Stages) -> tuple[Check, ...]:
+    """Return the balances of what was solved."""
+    from trochoid.drives.rv.balance import crank_residual, disc_residual, power_residual, torque_residual
+
+    made, series = stages.design, stages.contact.fine
+    split = np.abs(series.parts.sum(axis=1) / series.compliance - 1)
+    found = {
+        "forces and torques balance at every position": (float(series.imbalance.max()), BALANCE),
+        "no contact penetrates": (float(series.penetration.max()), BALANCE),
+        "discs in equilibrium": (disc_residual(made, series), BALANCE),
+        "crankshafts in equilibrium": (crank_residual(made, series), BALANCE),
+        "ring pins carry the ring's torque": (torque_residual(made, series), BALANCE),
+        "powers of sun and ring are what is stored, at every position": (
+            power_residual(made, series),
+            BALANCE,
+        ),
+    }
+    if not np.isnan(split).any():
+        found["compliances of the parts add up to the whole"] = (float(split.max()), SUM)
+    return tuple(Check(name, value, limit, bool(value <= limit)) for name, (value, limit) in found.items())
+
+
+def warnings(stages: Stages) -> tuple[str, ...]:
+    """Return what a reader must know before trusting the numbers."""
+    said: list[str] = []
+    scene, d = stages.scene, stages.scene.drive
+    m = d.cycloid.modification
+    given = [m.equidistant, m.radial, m.rotation, d.cycloid.pin_clearance, d.arm_bearing.clearance]
+    if any([*given, d.first_stage.backlash]) and not scene.has("clearance"):
+        said.append(
+            'the scene gives modifications or clearances, but the effect "clearance" is not listed: '
+            "they are not in the gaps"
+        )
+    if (stages.contact.fine.mesh_force < 0).any():
+        said.append(
+            "the teeth of a planet are pulled at some positions: they would lift off and fall back, which is not in "
+            "the model; raise operation.output_torque or lower first_stage.sun_stiffness"
+        )
+    return tuple(said)

@@ -1,0 +1,75 @@
+"""Which stages each quantity needs, and what they cost before anything runs."""
+
+from __future__ import annotations
+
+from trochoid.clock import Clock
+from trochoid.drives.planning import planned
+from trochoid.drives.rv.design import design
+from trochoid.drives.rv.stages import COARSEST, Stages
+from trochoid.plan import Plan
+from trochoid.scene.drive_rv import RvScene
+
+_GEOMETRY = ("kinematics", "geometry")
+_CONTACT = (*_GEOMETRY, "mesh", "teeth", "bodies", "contact")
+
+STAGES_OF: dict[str, tuple[str, ...]] = {
+    "ratio": ("kinematics",),
+    "member_speeds": ("kinematics",),
+    "profile": _GEOMETRY,
+    "geometry_quality": _GEOMETRY,
+    "contact_ratio": _GEOMETRY,
+    "load_sharing": _CONTACT,
+    "contact_force_max": _CONTACT,
+    "contact_pressure_max": _CONTACT,
+    "transmission_error": _CONTACT,
+    "mesh_stiffness": (*_GEOMETRY, "teeth"),
+    "torsional_stiffness": _CONTACT,
+    "stiffness_breakdown": _CONTACT,
+    "lost_motion": (*_CONTACT, "reversal"),
+    "bearing_loads": _CONTACT,
+    "balance": (*_GEOMETRY, "mass"),
+    "mass": (*_GEOMETRY, "mass"),
+}
+
+WHY = {
+    "kinematics": "members, speeds, profiles",
+    "geometry": "can it be made: undercut, walls, neighbours, assembly",
+    "mass": "masses and inertias from exact outlines",
+    "mesh": "second-order triangles, on two levels for the error",
+    "teeth": "stiffness of sun and planet over a base pitch",
+    "bodies": "factor of each distinct disc, its compliance at every facet",
+    "contact": "all contacts together over a turn of the crankshafts, on both levels",
+    "reversal": "twist under a small torque to either side, at a few angles",
+}
+
+
+def plan(scene: RvScene) -> Plan:
+    """Return what a run would do; raises Infeasible with every reason when the drive cannot be built."""
+    made = planned(scene, WHY, STAGES_OF, _seconds(scene), _model(scene), 300.0)
+    if any(stage.needed and stage.name == "geometry" for stage in made.stages):
+        Stages(scene, Clock()).feasible  # noqa: B018 - raises Infeasible with every reason
+    return made
+
+
+def _model(scene: RvScene) -> str:
+    if not scene.has("elastic_contact"):
+        return "closed forms"
+    return scene.accuracy.model or "level0, or strips where that is not within the tolerance"
+
+
+def _seconds(scene: RvScene) -> dict[str, float]:
+    """Return what stages cost: stations of a disc, positions and contacts decide."""
+    c, f = scene.drive.cycloid, scene.drive.first_stage
+    facets = scene.accuracy.facets_per_lobe or 2 * COARSEST
+    stations = facets * (c.lobes + f.cranks)
+    contacts = c.discs * (c.pins + f.cranks * scene.drive.arm_bearing.rollers) / 136
+    made = design(scene)
+    positions = scene.ask.positions / abs(made.turning)
+    slower = 1.5 if scene.accuracy.model == "strips" else 1.0
+    return {
+        "mesh": 1.5e-4 * stations + 0.15,
+        "teeth": 8e-3 * (f.z_sun + f.z_planet) + 0.3,
+        "bodies": len(made.hole_angles) * (4e-3 * stations + 0.5e-6 * stations**2),
+        "contact": 1.25 * positions * slower * contacts**1.5 * 0.013,
+        "reversal": 0.8 * contacts,
+    }

@@ -1,0 +1,80 @@
+"""The tables of the spherical planetary-pin indexer, in SI; the starter scene says what each field means."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import Field, ValidationInfo, field_validator
+
+from trochoid.scene import units
+from trochoid.scene.fields import (
+    DriveTable,
+    Fraction,
+    Inertia,
+    Measure,
+    Play,
+    PositiveLength,
+    Table,
+    Whole,
+    fault,
+)
+from trochoid.scene.model import Scene
+
+Swing = Annotated[float, Measure(units.ANGLE, least=1.0, most=359.0)]
+AxisAngle = Annotated[float, Measure(units.ANGLE, least=1.0, most=179.0)]
+PinRatio = Annotated[float, Measure(units.NUMBER, least=1e-3, most=1e3)]
+Tolerance = Annotated[float, Measure(units.ANGLE, above=0.0, most=10.0)]
+
+
+class Wheel(Table):
+    """[drive.wheel]: the slotted output link, a piece of a spherical shell."""
+
+    hub_radius: Play = 0.0
+    thickness: PositiveLength = 0.01
+    slot_length: PositiveLength | None = None
+    slot_clearance: Play = 0.0
+    inertia: Inertia | None = None
+
+
+def _pin_on_sphere(data: dict[str, Any]) -> float:
+    radius: float = data["sphere_radius"]
+    return 0.04 * radius
+
+
+class IndexerDrive(DriveTable):
+    """[drive] with type = "indexer"."""
+
+    type: Literal["indexer"]
+    ratio: Annotated[int, Whole(2, 20)]
+    train: Literal["hypo", "epi"]
+    swing_angle: Swing
+    axis_angle: AxisAngle
+    relative_turning_time: Fraction | None = None
+    pin_ratio: PinRatio | None = Field(default=None, validate_default=True)
+    place: Literal["near", "far"] | None = None
+    sphere_radius: PositiveLength = 0.1
+    pin_radius: PositiveLength = Field(default_factory=_pin_on_sphere)
+    dwell_tolerance: Tolerance = math.radians(0.1)
+    wheel: Wheel = Wheel()
+
+    @field_validator("pin_ratio")
+    @classmethod
+    def _one_of_two(cls, pin_ratio: float | None, info: ValidationInfo) -> float | None:
+        if "relative_turning_time" not in info.data:
+            return pin_ratio
+        time = info.data["relative_turning_time"]
+        if pin_ratio is not None and time is not None:
+            raise fault(
+                f"given beside relative_turning_time = {time:g}; give one of the two, the other follows from it"
+            )
+        if pin_ratio is None and time is None:
+            raise fault(
+                "missing, and relative_turning_time too; give one of the two, the other follows from it, "
+                "e.g. relative_turning_time = 0.29"
+            )
+        return pin_ratio
+
+
+IndexerScene: TypeAlias = Scene[IndexerDrive]
+SCENE = IndexerScene

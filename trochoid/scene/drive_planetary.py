@@ -1,0 +1,142 @@
+"""The tables of the involute planetary set 2K-H, in SI; the starter scene says what each field means."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import Field, ValidationInfo, field_validator
+
+from trochoid.scene import units
+from trochoid.scene.fields import AnyStiffness, DriveTable, Measure, Stiffness, Table, Whole, fault
+from trochoid.scene.model import Scene
+
+Member = Literal["sun", "ring", "carrier"]
+Shift = Annotated[float, Measure(units.NUMBER, least=-50.0, most=50.0)]
+Size = Annotated[float, Measure(units.LENGTH, above=0.0, most=1e5)]
+SmallSize = Annotated[float, Measure(units.LENGTH, least=0.0, most=1e5)]
+Module = Annotated[float, Measure(units.LENGTH, least=0.01, most=1000.0)]
+PressureAngle = Annotated[float, Measure(units.ANGLE, least=5.0, most=40.0)]
+Addendum = Annotated[float, Measure(units.NUMBER, least=0.1, most=3.0)]
+RootClearance = Annotated[float, Measure(units.NUMBER, least=0.0, most=1.0)]
+Relief = Annotated[float, Measure(units.LENGTH, least=0.0, most=10.0)]
+PlaceError = Annotated[float, Measure(units.LENGTH, least=-10.0, most=10.0)]
+LeastRatio = Annotated[float, Measure(units.NUMBER, least=0.0, most=10.0)]
+
+
+class RingCutter(Table):
+    """[drive.ring_cutter]: the pinion-type cutter of the ring."""
+
+    z: Annotated[int, Whole(3, 999)]
+    x: Shift = 0.0
+    tip_diameter: Size | None = None
+    tip_rounding: SmallSize = 0.0
+
+
+class Limits(Table):
+    """[drive.limits]: least tip thickness and contact ratio of a set that can be made."""
+
+    tip_thickness: SmallSize = 0.4e-3
+    contact_ratio: LeastRatio = 1.2
+
+
+class SunBody(Table):
+    """[drive.sun]: the body within its teeth, its relief, what it floats on."""
+
+    bore_radius: Size | None = None
+    tip_relief: Relief = 0.0
+    bearing_stiffness: AnyStiffness = 0.0
+
+
+class PlanetBody(Table):
+    """[drive.planet]: the body within its teeth, its relief, its seat on the carrier, errors of the planets' places."""
+
+    bore_radius: Size | None = None
+    tip_relief: Relief = 0.0
+    bearing_stiffness: Stiffness = 2e8
+    position_errors: tuple[PlaceError, ...] = ()
+
+
+class RingBody(Table):
+    """[drive.ring]: the body around its teeth, its relief, how it is held."""
+
+    outer_radius: Size | None = None
+    tip_relief: Relief = 0.0
+    held: Literal["edge", "evenly"] = "edge"
+    bearing_stiffness: AnyStiffness = 1e7
+
+
+class CarrierBody(Table):
+    """[drive.carrier]: what it floats on."""
+
+    bearing_stiffness: AnyStiffness = 3e8
+
+
+def _usual_driving(data: dict[str, Any]) -> Member:
+    return "ring" if data.get("fixed") == "sun" else "sun"
+
+
+class PlanetaryDrive(DriveTable):
+    """[drive] with type = "planetary"."""
+
+    type: Literal["planetary"]
+    z_sun: Annotated[int, Whole(3, 1000)]
+    z_planet: Annotated[int, Whole(3, 1000)]
+    z_ring: Annotated[int, Whole(4, 3000)]
+    planets: Annotated[int, Whole(1, 24)] = 3
+    module: Module
+    pressure_angle: PressureAngle = units.ANGLE.to_si(20.0)
+    addendum: Addendum = 1.0
+    root_clearance: RootClearance = 0.25
+    root_rounding: RootClearance | None = None
+    center_distance: Size
+    x_sun: Shift
+    x_planet: Shift | None = None
+    x_ring: Shift | None = None
+    face_width: Size
+    roller_diameter: Size | None = None
+    tip_rounding: Size | None = None
+    tip_relief_length: Size | None = None
+    plane: Literal["strain", "stress"] = "strain"
+    fixed: Member = "ring"
+    driving: Member = Field(default_factory=_usual_driving)
+    ring_cutter: RingCutter
+    limits: Limits = Limits()
+    sun: SunBody = SunBody()
+    planet: PlanetBody = PlanetBody()
+    ring: RingBody = RingBody()
+    carrier: CarrierBody = CarrierBody()
+
+    @field_validator("z_ring")
+    @classmethod
+    def _around_planet(cls, ring: int, info: ValidationInfo) -> int:
+        sun, planet = info.data.get("z_sun"), info.data.get("z_planet")
+        if planet is not None and ring <= planet:
+            usual = "" if sun is None else f", usually near z_sun + 2 z_planet = {sun + 2 * planet}"
+            raise fault(f"given {ring}; need more than z_planet = {planet}{usual}")
+        return ring
+
+    @field_validator("driving")
+    @classmethod
+    def _moves(cls, driving: str, info: ValidationInfo) -> str:
+        if driving == info.data.get("fixed"):
+            others = " or ".join(f'"{name}"' for name in ("sun", "ring", "carrier") if name != driving)
+            raise fault(f'given "{driving}", which is fixed; need {others}')
+        return driving
+
+    @field_validator("planet")
+    @classmethod
+    def _an_error_each(cls, planet: PlanetBody, info: ValidationInfo) -> PlanetBody:
+        given, count = len(planet.position_errors), info.data.get("planets")
+        if count is not None and given not in (0, count):
+            raise fault(f"given {given} position_errors; need one for each of the {count} planets, or none")
+        return planet
+
+    @property
+    def driven(self) -> Member:
+        """The third of the members about the main axis."""
+        members: tuple[Member, ...] = ("carrier", "ring", "sun")
+        return next(name for name in members if name not in (self.fixed, self.driving))
+
+
+PlanetaryScene: TypeAlias = Scene[PlanetaryDrive]
+SCENE = PlanetaryScene

@@ -1,0 +1,153 @@
+"""The tables of the RV (2K-V) drive, in SI; the starter scene says what each field means."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import AfterValidator, Field, ValidationInfo, field_validator
+
+from trochoid.scene import units
+from trochoid.scene.fields import (
+    DriveTable,
+    Length,
+    Mass,
+    Measure,
+    Play,
+    PositiveLength,
+    Stiffness,
+    Table,
+    Whole,
+    fault,
+)
+from trochoid.scene.model import Scene
+
+PressureAngle = Annotated[float, Measure(units.ANGLE, least=14.0, most=30.0)]
+Shift = Annotated[float, Measure(units.NUMBER, least=-3.0, most=3.0)]
+
+
+def _ascending(positions: tuple[float, float]) -> tuple[float, float]:
+    if not positions[0] < positions[1]:
+        raise fault(
+            f"given {positions[0] * 1e3:g} and {positions[1] * 1e3:g} mm; need two places, the lower z first"
+        )
+    return positions
+
+
+BearingPositions = Annotated[tuple[Length, Length], AfterValidator(_ascending)]
+
+
+class Modification(Table):
+    """[drive.cycloid.modification]: deviation of the ground flank from the theoretical one."""
+
+    equidistant: Length = 0.0
+    radial: Length = 0.0
+    rotation: Annotated[float, Measure(units.ANGLE)] = 0.0
+
+
+def _one_less_than_pins(data: dict[str, Any]) -> int:
+    pins: int = data["pins"]
+    return pins - 1
+
+
+class CycloidStage(Table):
+    """[drive.cycloid]: second stage, cycloid discs between ring pins."""
+
+    pins: Annotated[int, Whole(4, 1000)]
+    lobes: Annotated[int, Whole(3, 999)] = Field(default_factory=_one_less_than_pins)
+    pin_circle_radius: PositiveLength
+    pin_radius: PositiveLength
+    eccentricity: PositiveLength
+    discs: Annotated[int, Whole(1, 4)] = 2
+    face_width: PositiveLength
+    disc_gap: Play = 0.002
+    bore_radius: PositiveLength
+    pin_clearance: Play = 0.0
+    modification: Modification = Modification()
+
+    @field_validator("lobes")
+    @classmethod
+    def _match_pins(cls, lobes: int, info: ValidationInfo) -> int:
+        pins = info.data.get("pins")
+        if pins is not None and lobes != pins - 1:
+            raise fault(
+                f"given {lobes}; need pins - 1 = {pins - 1} (other tooth differences are not offered yet)"
+            )
+        return lobes
+
+
+class FirstStage(Table):
+    """[drive.first_stage]: sun and planets, one on each crankshaft."""
+
+    z_sun: Annotated[int, Whole(6, 500)]
+    z_planet: Annotated[int, Whole(6, 1000)]
+    module: PositiveLength
+    cranks: Annotated[int, Whole(2, 6)] = 3
+    pressure_angle: PressureAngle = units.ANGLE.to_si(20.0)
+    x_sun: Shift | None = None
+    x_planet: Shift | None = None
+    center_distance: PositiveLength | None = None
+    face_width: PositiveLength
+    backlash: Play = 0.0
+    mesh_stiffness: Stiffness | None = None
+    sun_stiffness: Stiffness = 2e7
+
+
+class ArmBearing(Table):
+    """[drive.arm_bearing]: turning-arm bearing, rollers between an eccentric and the crank hole of a disc."""
+
+    hole_radius: PositiveLength
+    rollers: Annotated[int, Whole(3, 200)]
+    roller_radius: PositiveLength
+    roller_length: PositiveLength
+    clearance: Play = 0.0
+
+
+class Crankshaft(Table):
+    """[drive.crankshaft]: one of the equal crankshafts, on two bearings in the carrier."""
+
+    radius: PositiveLength
+    planet_position: Length
+    bearing_positions: BearingPositions
+    bearing_stiffness: Stiffness
+
+
+class Pillars(Table):
+    """[drive.carrier.pillars]: round pillars between the carrier's two sides, through windows of the discs."""
+
+    circle_radius: PositiveLength
+    radius: PositiveLength
+    gap: Play = 0.0005
+
+
+class Carrier(Table):
+    """[drive.carrier]: the output, two sides of the pack joined by pillars."""
+
+    outer_radius: PositiveLength
+    thickness: PositiveLength
+    pillars: Pillars | None = None
+    mass: Mass | None = None
+
+
+class Ring(Table):
+    """[drive.ring]: the body that holds the ring pins."""
+
+    outer_radius: PositiveLength
+    width: PositiveLength
+
+
+class RvDrive(DriveTable):
+    """[drive] with type = "rv"."""
+
+    type: Literal["rv"]
+    fixed: Literal["ring", "carrier", "sun"] = "ring"
+    plane: Literal["strain", "stress"] = "strain"
+    cycloid: CycloidStage
+    first_stage: FirstStage
+    arm_bearing: ArmBearing
+    crankshaft: Crankshaft
+    carrier: Carrier
+    ring: Ring
+
+
+RvScene: TypeAlias = Scene[RvDrive]
+SCENE = RvScene
