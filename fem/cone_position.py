@@ -7,7 +7,8 @@ the slices of pressed contacts is put into the gaps and follows the forces from 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -19,7 +20,8 @@ from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array, BoolArray, IntArray
 
 STEPS = 60
-SETTLED = 1e-8  # of the largest force: gaps of coordinates in rounding leave 2e-9
+SETTLED = 1e-9  # of the largest force
+ROUNDING = 1e-14  # of the coordinates: gaps are not known better
 NEAR = 1e-3  # of a station's width: contacts that moved less keep their compliance
 
 
@@ -59,7 +61,7 @@ class ConeContact:
 
     `force` (n, C, s) in N on slices, `pressure` (n, C, s) the largest of each in Pa, `half_width` (n, C, s) in m,
     `motion` (n, k), `stiffness` (n, k, k) its tangent, `state` the geometry there, `steps` taken, `residual` (n,) the
-    worst opening or overlap of pressed slices over the largest approach.
+    worst overlap, or opening of pressed slices, over the largest approach.
     """
 
     force: Array
@@ -91,17 +93,19 @@ def solve_cone(assembly: ConeAssembly, at_once: int = 16) -> ConeContact:
             parts.append(_solved(some))
         except NotConverged as fault:
             raise NotConverged(str(fault), None if fault.row is None else first + fault.row) from fault
-    if len(parts) == 1:
-        return parts[0]
+    return _joined(parts) if len(parts) > 1 else parts[0]
 
-    def joined(name: str) -> Array:
-        return np.concatenate([getattr(p, name) for p in parts])
 
-    state = ConeState(
-        **{n: np.concatenate([getattr(p.state, n) for p in parts]) for n in ConeState.__dataclass_fields__}
-    )
-    names = ("force", "pressure", "half_width", "motion", "stiffness")
-    return ConeContact(*(joined(n) for n in names), state, max(p.steps for p in parts), joined("residual"))
+def _joined(parts: Sequence[ConeContact]) -> ConeContact:
+    """Return all positions in one."""
+    first = parts[0]
+    contact = {
+        f.name: np.concatenate([getattr(p, f.name) for p in parts])
+        for f in fields(ConeContact)
+        if f.name not in ("state", "steps")
+    }
+    state = {f.name: np.concatenate([getattr(p.state, f.name) for p in parts]) for f in fields(ConeState)}
+    return replace(first, **contact, state=ConeState(**state), steps=max(p.steps for p in parts))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -135,7 +139,10 @@ def _solved(assembly: ConeAssembly) -> ConeContact:
         new = solution.forces[0]
         size = np.maximum(new.max(axis=(1, 2), initial=0.0), 1e-300)
         change = np.abs(new - force).max(axis=(1, 2), initial=0.0) / size
-        change[new.max(axis=(1, 2), initial=0.0) == 0.0] = 0.0  # nothing touches
+        noise = _noise(assembly, problem)
+        _fail_if_drowned(assembly, size, noise)
+        new = np.where((size > noise)[:, None, None], new, 0.0)  # less is rounding: nothing touches
+        change = np.where(new.any(axis=(1, 2)), change - noise / size, 0.0)
         motion, force = motion + solution.motion, new
         state = assembly.pair.at(motion)
         if np.all(change < SETTLED):
@@ -147,6 +154,23 @@ def _solved(assembly: ConeAssembly) -> ConeContact:
         "reduce the clearance or the load, or give the free motions springs",
         worst,
     )
+
+
+def _noise(assembly: ConeAssembly, problem: lcp.Problem) -> Array:
+    """Return the force (n,) in N by which rounding of the coordinates may press a slice."""
+    least = problem.groups[0].diagonal.min(axis=(1, 2))
+    return np.asarray(ROUNDING * assembly.rim.slices.outer[-1] / least)
+
+
+def _fail_if_drowned(assembly: ConeAssembly, size: Array, noise: Array) -> None:
+    drowned = np.flatnonzero((size <= noise) & assembly.load.any(axis=1))
+    if len(drowned):
+        row = int(drowned[0])
+        raise NotConverged(
+            f"contact of rollers and rim: a load of {np.abs(assembly.load[row]).max():.3g} drowns in rounding, which "
+            f"alone presses slices with {noise[row]:.1e} N; take no load at all, or a larger one",
+            row,
+        )
 
 
 def _guess(assembly: ConeAssembly, state: ConeState) -> Array:
@@ -252,7 +276,7 @@ def _contact(
         pressed = np.flatnonzero(flat > 0.0)
         opening = gap + matrix @ flat + value[i].ravel()
         overlap = np.where(flat > 0.0, np.abs(opening), np.maximum(-opening, 0.0))
-        residual[i] = overlap.max() / max(float(np.abs(value[i]).max()), 1e-300)
+        residual[i] = overlap.max() / max(float(np.abs(value[i]).max()), 1e-300) if len(pressed) else 0.0
         inner = matrix[np.ix_(pressed, pressed)] + np.diag(slope[i].ravel()[pressed])
         arms = state.arms[i].reshape(-1, motion.shape[1])[pressed]
         stiffness[i] = assembly.springs + arms.T @ np.linalg.solve(inner, arms)

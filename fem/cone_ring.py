@@ -87,5 +87,4 @@ def _merged(sector: Sector, table: Array, pair: IntArray, closed: bool) -> Coupl
                     p, q = p % teeth, q % teeth
                 if 0 <= p < teeth and 0 <= q < teeth:
                     merged[number, a, :, b] += raw[pair[p, q], i, :, j]
-    merged = merged.reshape(len(table), stations * slices, stations * slices)
-    return Coupling(merged, pair, stations, slices, closed)
+    return Coupling(merged.reshape(len(table), stations * slices, -1), pair, stations, slices, closed)

@@ -23,13 +23,7 @@ def closed_form_roller(material: Material) -> Roller:
 
 
 def press_roller(
-    slices: Slices,
-    angle: float,
-    bore: float,
-    material: Material,
-    facets: int = 24,
-    parts: int = 1,
-    solver: str | None = None,
+    layers: Slices, angles: tuple[float, float], material: Material, facets: int = 24, parts: int = 1
 ) -> Roller:
     """Return a roller of half angle angles[0] on a pin of half angle angles[1] (rad), as long as the layers together.
 

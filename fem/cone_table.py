@@ -38,8 +38,8 @@ class RimCompliance:
 
     `table` (pairs, k, s, k, s) in m/N between unit forces on layers, of which `finer` (f, s) makes slices; `own`
     (teeth that differ, k, f, f) that of a station on itself without the plane-strain term; `mean` (pairs, k, k) the
-    table for even forces.
-    `layers` are those that contacts cover, `slices` their parts.  `kernel` 2/(πE') of the body in 1/Pa, `half_width` (k,) of the loads in rad, `length` of a tooth's flank in rad.
+    table for even forces.  `layers` are those that contacts cover, `slices` their parts.  `kernel` 2/(πE') of the body
+    in 1/Pa, `half_width` (k,) of the loads and `length` of a tooth's flank in rad.
     `ends` (2,): where the body ends, m: free of stress.
     """
 

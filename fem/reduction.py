@@ -157,7 +157,9 @@ def _free_nodes(body: SolidBody, interfaces: Sequence[Interface]) -> IntArray:
             )
         owner[interface.nodes] = i
     if (owner >= 0).all():
-        raise Infeasible("the interfaces hold every node of the mesh: nothing is left to yield; mesh it more finely")
+        raise Infeasible(
+            "the interfaces hold every node of the mesh: nothing is left to yield; mesh it more finely"
+        )
     return np.flatnonzero(owner < 0)
 
 

@@ -118,7 +118,7 @@ def centers(casing: BoxCasing) -> dict[str, Triple]:
 
 def fail_if_impossible(casing: BoxCasing) -> None:
     """Raise Infeasible naming the first measure that cannot be, and its nearest feasible value."""
-    names = [part.name for part in (*casing.bores, *casing.mounts)]
+    names = [bore.name for bore in casing.bores] + [mount.name for mount in casing.mounts]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise Infeasible(f"casing: bores and mounts need different names; {', '.join(twice)} given twice")

@@ -14,7 +14,6 @@ from trochoid.kinematics.types import Array, BoolArray, IntArray
 
 Triple = tuple[float, float, float]
 NEAR = 2e-3  # of the radius or the body: how far a corner of a facet may lie from the shape
-SPREAD = 12  # nodes of a patch whose size is not given
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +63,9 @@ def place_nodes(mesh: SolidMesh, place: Place, name: str = "the place") -> IntAr
 
 
 def patch(mesh: SolidMesh, point: Triple, radius: float | None = None) -> IntArray:
-    """Return the nodes of the surface within `radius` (m) of its node next to a point; None: the nearest dozen.
+    """Return the nodes of the surface within `radius` (m) of its node next to a point; None: those of the next facet.
 
-    Raises TrochoidError when the point is off the body, by 5 % of its extent and a facet, or there are fewer than three.
+    Raises TrochoidError when the point is off the body, by 5 % of its extent and a facet, or they are fewer than three.
     """
     outer = np.unique(mesh.facets)
     distance = np.linalg.norm(mesh.points[outer] - point, axis=1)
@@ -76,14 +75,29 @@ def patch(mesh: SolidMesh, point: Triple, radius: float | None = None) -> IntArr
             f"the point {point} m is {distance.min():.3g} m from the body; the nearest node of its surface is at "
             f"{mesh.points[nearest]} m"
         )
-    about = np.linalg.norm(mesh.points[outer] - mesh.points[nearest], axis=1)
-    chosen = outer[np.argsort(about, kind="stable")[:SPREAD]] if radius is None else outer[about <= radius]
+    if radius is None:
+        middles = mesh.points[mesh.facets[: len(mesh.facets) // 2]].mean(axis=0)
+        facet = int(np.argmin(np.linalg.norm(middles - point, axis=1)))
+        return np.sort(mesh.facets[:, facet])
+    chosen = outer[np.linalg.norm(mesh.points[outer] - mesh.points[nearest], axis=1) <= radius]
     if len(chosen) < 3:
         raise TrochoidError(
-            f"only {len(chosen)} node(s) lie within {radius} m of {point} m: a patch needs at least three; give a larger "
-            "radius"
+            f"only {len(chosen)} node(s) lie within {radius} m of {point} m: a patch needs at least three; give a "
+            "larger radius"
         )
-    return np.sort(chosen).astype(np.intp)
+    return np.asarray(chosen, dtype=np.intp)
+
+
+def middle(mesh: SolidMesh, name: str) -> Triple:
+    """Return the middle of the box round a named set, m: on the axis of a whole bore, half-way along it.
+
+    Raises TrochoidError for a set that is not there.
+    """
+    if name not in mesh.sets:
+        raise TrochoidError(f"the mesh has no set {name!r}; there are {', '.join(mesh.sets) or 'none'}")
+    points = mesh.points[mesh.sets[name]]
+    x, y, z = (0.5 * (points.min(axis=0) + points.max(axis=0))).tolist()
+    return x, y, z
 
 
 def _edge(mesh: SolidMesh, node: int) -> float:

@@ -207,6 +207,23 @@ def test_warnings() -> None:
 
 
 @pytest.mark.exact
+def test_pressure_angles_of_the_geneva_wheel() -> None:
+    """D = 90°, ψ_Σ = 90°: from the angle at the pin in the spherical triangle of both axes and the pin."""
+    found = run_of().geometry_quality
+    # pin at φ: its path is square to the arm, the slot's normal square to the circle from o; the angle between
+    # both circles in the triangle with sides 45°, 90° and α follows from sin x = sin φ/sin α
+    edge = math.radians(60.0)
+    low, high = 0.0, 0.5 * math.pi
+    for _ in range(60):
+        phi = 0.5 * (low + high)
+        alpha = math.acos(math.cos(phi) / math.sqrt(2.0))
+        low, high = (low, phi) if math.sin(phi) / math.sin(alpha) > math.sin(edge) else (phi, high)
+    assert number(found, "geneva_wheel", "share_of_index_above_60_deg") == pytest.approx(
+        1 - 2 * low / math.pi
+    )
+
+
+@pytest.mark.exact
 def test_outline_of_the_wheel() -> None:
     """On the sphere, within rim and bottom of the slots, four slots; back and forth between frames; true distances."""
     run = run_of()

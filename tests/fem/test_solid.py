@@ -126,7 +126,7 @@ def _free_hertz(body: SolidBody, count: int, shift: float) -> Array:
 
 @pytest.mark.published
 def test_free_square_plate() -> None:
-    """Leissa 1973 (J. Sound Vib. 31, 257): ω a² √(ρh/D) = 13.489, 19.789, 24.432, 35.024 twice; his are upper bounds."""
+    """Leissa 1973 (J. Sound Vib. 31, 257): ω a² √(ρh/D) = 13.489, 19.789, 24.432, 35.024 twice, upper bounds."""
     side, thick = 1.0, 0.01
     body = solid_body(bar((side, side, thick), (8, 8, 1)), STEEL)
     bending = 200e9 * thick**3 / 12.0 / (1.0 - 0.09)
@@ -144,7 +144,9 @@ def test_bar_of_a_material_without_lateral_strain() -> None:
         body = solid_body(bar((1.0, 0.1, 0.1), (count, 1, 1)), Material(200e9, 0.0, 8000.0))
         points = body.mesh.points
         places, row = np.unique(points[:, 0].round(9), return_inverse=True)
-        plane = csc_matrix((np.ones(len(row)), (3 * np.arange(len(row)), row)), shape=(body.size, len(places)))
+        plane = csc_matrix(
+            (np.ones(len(row)), (3 * np.arange(len(row)), row)), shape=(body.size, len(places))
+        )
         stiffness = csc_matrix(plane.T @ body.stiffness @ plane)
         mass = csc_matrix(plane.T @ spread(body.mass) @ plane)
         shift = -1e7

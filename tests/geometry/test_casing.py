@@ -12,7 +12,8 @@ from trochoid.fem.material import Material
 from trochoid.fem.solid import mass_properties, solid_body
 from trochoid.geometry.casing_box import BoxCasing, centers, inner_face, outer_face
 from trochoid.geometry.casing_mesh import mesh_casing
-from trochoid.kinematics.errors import Infeasible
+from trochoid.geometry.solid_places import middle
+from trochoid.kinematics.errors import Infeasible, TrochoidError
 from trochoid.kinematics.types import Array
 
 Solid = tuple[float, Array, Array]  # volume, centre, second moments ∫ x xᵀ dV about the centre
@@ -38,7 +39,7 @@ def _closed_form(casing: BoxCasing) -> tuple[float, Array, Array]:
     top = np.array([high[0], low[1] + casing.plate, high[2]])
     parts: list[tuple[int, Solid]] = [
         (1, _box(low, high)),
-        (-1, _box(low + [wall, casing.plate, wall], high - wall)),
+        (-1, _box(low + np.array([wall, casing.plate, wall]), high - wall)),
         (1, _box(low - reach, top + reach)),
         (-1, _box(low, top)),
     ]
@@ -66,7 +67,7 @@ def _closed_form(casing: BoxCasing) -> tuple[float, Array, Array]:
     ids=["example", "no mounts", "no bores"],
 )
 def test_mass_and_inertia(casing: BoxCasing) -> None:
-    """Mass, centre and inertia of the mesh are those of boxes and cylinders, to what quadratic facets leave of a bore."""
+    """Mass, centre and inertia of the mesh are those of boxes and cylinders, but for quadratic facets on the bores."""
     found = mass_properties(solid_body(mesh_casing(casing, 0.05), Material(2e11, 0.3, 7000.0)))
     volume, center, inertia = _closed_form(casing)
     assert found.mass == pytest.approx(7000.0 * volume, rel=1e-5)
@@ -89,6 +90,16 @@ def test_named_places() -> None:
         assert y == pytest.approx(CASING.low[1])
         away = np.hypot(x - mount.x, z - mount.z)
         assert away.max() == pytest.approx(mount.radius, rel=1e-6)
+
+
+@pytest.mark.exact
+def test_middles_of_sets() -> None:
+    """The middle of the nodes of a seat or mount place is its own."""
+    mesh = mesh_casing(CASING, 0.05)
+    for name, center in centers(CASING).items():
+        assert middle(mesh, name) == pytest.approx(center, abs=1e-6)
+    with pytest.raises(TrochoidError, match="no set 'bore'; there are input"):
+        middle(mesh, "bore")
 
 
 @pytest.mark.exact

@@ -14,11 +14,18 @@ from tests.geometry.solid_cases import bricks, grid
 from trochoid.geometry.session import gmsh_session
 from trochoid.geometry.solid_file import read_solid
 from trochoid.geometry.solid_mesh import SolidMesh, solid_mesh
-from trochoid.geometry.solid_places import Cylinder, Disc, find, patch, place_nodes
+from trochoid.geometry.solid_places import Cylinder, Disc, Place, find, patch, place_nodes
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, IntArray
 
-TETRAHEDRA = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 5, 1, 6), (0, 4, 5, 6), (0, 3, 7, 6), (0, 7, 4, 6))  # of a brick
+TETRAHEDRA = (
+    (0, 1, 2, 6),
+    (0, 2, 3, 6),
+    (0, 5, 1, 6),
+    (0, 4, 5, 6),
+    (0, 3, 7, 6),
+    (0, 7, 4, 6),
+)  # of a brick
 
 
 def _cut(counts: tuple[int, int, int]) -> tuple[Array, IntArray]:
@@ -78,7 +85,7 @@ def test_places_are_found_by_shape() -> None:
     turn *= np.linalg.det(turn)
     turned = solid_mesh(mesh.points @ turn.T + [1.0, 2.0, 3.0], mesh.elements)
     start, axis = (1.0, 2.0, 3.0), tuple(3.0 * turn[:, 2])
-    places = {
+    places: dict[str, Place] = {
         "bore": Cylinder(start, axis, 0.2),
         "half": Cylinder(start, axis, 0.2, (0.0, 0.25)),
         "outside": Cylinder(start, axis, 0.3),
@@ -110,13 +117,15 @@ def test_a_place_that_is_not_there_says_how_far() -> None:
 
 @pytest.mark.exact
 def test_patch() -> None:
-    """By radius or the nearest dozen, on the surface alone; a point off the body is refused."""
+    """By radius or the next facet, on the surface alone; a point off the body is refused."""
     mesh = bricks((3, 3, 3))
-    assert len(patch(mesh, (1.0 / 3.0, 1.0 / 3.0, 1.01), 0.2)) == 5  # a corner and the middles of its four edges
-    dozen = patch(mesh, (1.0, 1.0, 1.0))
-    assert len(dozen) == 12
-    assert np.isin(dozen, mesh.facets).all()
-    with pytest.raises(TrochoidError, match="0.527 m from the body"):
+    assert (
+        len(patch(mesh, (1.0 / 3.0, 1.0 / 3.0, 1.01), 0.2)) == 5
+    )  # a corner and the middles of its four edges
+    facet = mesh.points[patch(mesh, (1.0, 0.9, 0.9))]
+    assert facet.min(axis=0) == pytest.approx([1.0, 2.0 / 3.0, 2.0 / 3.0])
+    assert len(facet) == 8
+    with pytest.raises(TrochoidError, match=r"0\.527 m from the body"):
         patch(mesh, (0.5, 0.5, 1.5))
     with pytest.raises(TrochoidError, match="only 1 node"):
         patch(mesh, (0.0, 0.0, 0.0), 0.01)
@@ -195,7 +204,7 @@ def test_files_that_do_not_serve_are_refused(tmp_path: Path) -> None:
     with pytest.raises(TrochoidError, match="cannot be read"):
         read_solid(tmp_path / "none.vtu")
     (tmp_path / "body.xyz1").write_text("no mesh")
-    with pytest.raises(TrochoidError, match="format|cannot be read"):
+    with pytest.raises(TrochoidError, match=r"format|cannot be read"):
         read_solid(tmp_path / "body.xyz1")
     with pytest.raises(TrochoidError, match="scale"):
         read_solid(tmp_path / "surface.vtu", 0.0)

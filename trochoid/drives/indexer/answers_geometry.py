@@ -12,10 +12,11 @@ from trochoid.drives.indexer.stages import Stages
 from trochoid.drives.indexer.words import path_words
 from trochoid.kinematics.indexer import Indexer
 from trochoid.kinematics.indexer_slot import pressure_angle
+from trochoid.kinematics.zeros import zeros_between
 from trochoid.results.outcome import Parts, Quantity
 
 STEEP = math.radians(60.0)
-SAMPLES = 2001
+SAMPLES = 361
 
 
 def profile(s: Stages) -> Quantity:
@@ -54,24 +55,30 @@ def geometry_quality(s: Stages) -> Quantity:
     rows: dict[str, Parts] = {}
     for name, travel in s.slots.items():
         found = s.measured[name]
-        t = np.linspace(-found.indexer.half_turn, found.indexer.half_turn, SAMPLES)
-        angle = pressure_angle(found.indexer, t)
         peak = float(pressure_angle(found.indexer, found.peaks.acceleration_at))
+        needed, given = slot_length(made, travel), made.drive.wheel.slot_length if name == INDEXER else None
         row = {
-            "bottom_of_slot_to_hub": _mm(bottom_to_hub(made, travel)),
+            "bottom_of_slot_to_hub": _mm(bottom_to_hub(made, travel, given or needed)),
             "wall_between_slots": _wall(between_slots(made, travel) - 2.0 * made.drive.pin_radius),
             "pin_farthest_in_dwell": _degrees(_farthest(found.indexer)),
             "mouth_offset": _mm(made.drive.sphere_radius * travel.offset),
             "dwell_disturbance": _degrees(travel.disturbance),
-            "pressure_angle_least": _degrees(float(angle.min())),
             "pressure_angle_at_acceleration_max": _degrees(peak),
-            "share_of_index_above_60_deg": _exact(float(np.mean(angle > STEEP))),
+            "share_of_index_above_60_deg": _exact(_steep_share(found.indexer)),
         }
-        given = made.drive.wheel.slot_length
-        if given is not None and name == INDEXER:
-            row["slot_length_margin"] = _mm(given - slot_length(made, travel))
+        if given is not None:
+            row["slot_length_margin"] = _mm(given - needed)
         rows[name] = row
     return Quantity(parts=rows)
+
+
+def _steep_share(indexer: Indexer) -> float:
+    """Share of an index over which the pressure angle is above 60°."""
+    t = np.linspace(0.0, indexer.half_turn, SAMPLES)
+    edges = zeros_between(lambda x: pressure_angle(indexer, x) - STEEP, t[:-1], t[1:], 1e-12)
+    ends = np.sort(np.concatenate((t[[0, -1]], edges)))
+    steep = pressure_angle(indexer, 0.5 * (ends[1:] + ends[:-1])) > STEEP
+    return float(np.diff(ends)[steep].sum() / indexer.half_turn)
 
 
 def _farthest(indexer: Indexer) -> float:

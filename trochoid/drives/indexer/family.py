@@ -47,7 +47,7 @@ def family(design: Design) -> Plot:
         "Every point is an indexer without hard shock for the same swing, ratio and shafts that serves; "
         "k in steps of 0.005."
     )
-    axes = (Axis("relative turning time k"), Axis("C = ε T²/ψ_Σ"))
+    axes = (Axis("relative turning time k"), Axis("C = max|ε| T²/ψ"))
     return Plot("Choice of the relative turning time", axes, tuple(curves), (), caption, equal=False)
 
 

@@ -20,12 +20,9 @@ def slot_length(design: Design, slot: Slot) -> float:
     return d.sphere_radius * (slot.farthest - slot.nearest) + d.pin_radius + d.wheel.slot_clearance
 
 
-def bottom_to_hub(design: Design, slot: Slot) -> float:
-    """Length (m, on the sphere) left between the bottom of a slot and the hub, or the axis."""
-    d = design.drive
-    return d.sphere_radius * (slot.farthest - hub_angle(design)) - (
-        d.wheel.slot_length or slot_length(design, slot)
-    )
+def bottom_to_hub(design: Design, slot: Slot, length: float) -> float:
+    """Distance (m, on the sphere) left between the bottom of a slot of this length and the hub, or the axis."""
+    return design.drive.sphere_radius * (slot.farthest - hub_angle(design)) - length
 
 
 def between_slots(design: Design, slot: Slot) -> float:
@@ -48,7 +45,9 @@ def _shell(design: Design) -> tuple[str, ...]:
 
 
 def _hub(design: Design, slot: Slot) -> tuple[str, ...]:
-    d, left = design.drive, bottom_to_hub(design, slot)
+    d, needed = design.drive, slot_length(design, slot)
+    length = d.wheel.slot_length or needed
+    left = bottom_to_hub(design, slot, length)
     if d.wheel.hub_radius >= d.sphere_radius:
         return (
             f"wheel.hub_radius = {_mm(d.wheel.hub_radius)}: the hub would hold the whole sphere; "
@@ -56,8 +55,7 @@ def _hub(design: Design, slot: Slot) -> tuple[str, ...]:
         )
     if left > 0.0:
         return ()
-    needed, nearest = slot_length(design, slot), d.sphere_radius * slot.nearest
-    spare = (d.wheel.slot_length or needed) - needed
+    nearest, spare = d.sphere_radius * slot.nearest, length - needed
     what = "the hub" if d.wheel.hub_radius > 0.0 else "the wheel's axis"
     if left + spare > 0.0:
         return (

@@ -85,11 +85,11 @@ def laws(design: Design) -> tuple[Plot, ...]:
             curve = np.stack((part, values), axis=-1)
             made[symbol].append(PlotCurve(SHOWN[name], curve, labels=_read(part, values)))
     titles = {
-        "B": ("Velocity at equal time and swing", "ω T/ψ_Σ"),
-        "C": ("Acceleration at equal time and swing", "ε T²/ψ_Σ"),
-        "N": ("Power at equal time and swing", "ω ε T³/ψ_Σ²"),
+        "B": ("Velocity at equal time and swing", "B(t) = ω T/ψ"),
+        "C": ("Acceleration at equal time and swing", "C(t) = ε T²/ψ"),
+        "N": ("Power at equal time and swing", "N(t) = ω ε T³/ψ²"),
     }
-    caption = "Over the time T of an index; the largest value is the constant that bears the same letter."
+    caption = "Over the time T of an index by the swing ψ; the largest value is the constant of that letter."
     time = Axis("t/T")
     return tuple(
         Plot(titles[name][0], (time, Axis(titles[name][1])), tuple(curves), (), caption, equal=False)

@@ -31,11 +31,9 @@ def _along_the_path(stages: Stages) -> Plot:
         mesh = (stages.feasible.geometry.outer, stages.feasible.geometry.inner)[pair]
         pole = float(mesh.pitch_radii[0]) * np.sin(float(mesh.operating_angle))
         for i in range(touches.force.shape[1]):
-            order = np.argsort(rho[:, i].ravel())
-            points = np.stack([rho[:, i].ravel() - pole, touches.force[:, i].ravel()], axis=-1)[order]
-            pressed = np.flatnonzero(points[:, 1] > 0)
-            if pressed.size:
-                points = points[max(0, pressed[0] - 1) : pressed[-1] + 2]
+            pressed = touches.force[:, i] > 0.0
+            points = np.stack([rho[:, i][pressed] - pole, touches.force[:, i][pressed]], axis=-1)
+            points = points[np.argsort(points[:, 0])]
             curves.append(PlotCurve(f"planet {i + 1}, {name}", frozen(points), f"planet {i + 1}, {name}"))
     return Plot(
         "Load along the paths of contact",

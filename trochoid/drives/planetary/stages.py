@@ -10,7 +10,7 @@ from trochoid.clock import Clock
 from trochoid.drives.choosing import POSITIONS, Chosen, choose
 from trochoid.drives.mesh_error import Pair
 from trochoid.drives.planetary.design import Design, design
-from trochoid.kinematics.errors import Infeasible, NotConverged
+from trochoid.kinematics.errors import Infeasible, NotConverged, SceneError
 from trochoid.kinematics.train import Speeds, planetary_train, speeds
 from trochoid.scene.drive_planetary import PlanetaryScene
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from trochoid.drives.planetary.series import Series
     from trochoid.geometry.planetary_curves import Members
 
+LEAST = 10
 LEVELS = (6, 12, 24)  # facets per flank; with 4 the fillets of a ring are too coarse for its elements
 
 
@@ -144,9 +145,14 @@ class Stages:
 
     @property
     def levels(self) -> tuple[int, ...]:
-        """The mesh levels that a run may try: the coarser of two first."""
+        """The mesh levels that a run may try: the coarser of two first. Raises SceneError for too few facets."""
         given = self.scene.accuracy.facets_per_lobe
-        return LEVELS if given is None else (max(3, given // 2), given)
+        if given is not None and given < LEAST:
+            raise SceneError(
+                f"accuracy.facets_per_lobe: given {given}; a flank of a planetary set needs at least {LEAST}, for half of "
+                "them tell the error"
+            )
+        return LEVELS if given is None else (given // 2, given)
 
     @cached_property
     def contact(self) -> Solved:

@@ -24,17 +24,24 @@ LINES = {"crankshaft": (1, 1), "crankshaft_twice": (2, 1), "ring_pins": (1, 0), 
 
 def load_sharing(s: Stages) -> Quantity:
     """How the torque is shared by crankshafts and discs, and the load of a disc by its pins."""
-    return Quantity(
-        parts={
-            "crankshaft_share_max_input": over_turn(s, lambda x: float(_shares(x.mesh_force).max()), ""),
-            "crankshaft_share_max_output": over_turn(s, lambda x: float(crank_shares(s, x).max()), ""),
-            "disc_torque_share_max": over_turn(s, lambda x: float(disc_shares(s, x).max()), ""),
-            "pin_force_share_max": over_turn(s, _pin_share, ""),
-            "loaded_pins_mean": over_turn(s, lambda x: float((x.ring.force > 0).sum(axis=2).mean()), ""),
-            "loaded_rollers_mean": over_turn(s, lambda x: float((x.arm.force > 0).sum(axis=3).mean()), ""),
-        },
-        note="input: torque of the sun by its planets; output: torque of the carrier by the crank bearings",
-    )
+    parts = {
+        "crankshaft_share_max_input": over_turn(s, lambda x: float(_shares(x.mesh_force).max()), ""),
+        "crankshaft_share_max_output": over_turn(s, lambda x: float(crank_shares(s, x).max()), ""),
+        "disc_torque_share_max": over_turn(s, lambda x: float(disc_shares(s, x).max()), ""),
+        "pin_force_share_max": over_turn(s, _pin_share, ""),
+        "loaded_pins_mean": over_turn(s, lambda x: float((x.ring.force > 0).sum(axis=2).mean()), ""),
+        "loaded_rollers_mean": over_turn(s, lambda x: float((x.arm.force > 0).sum(axis=3).mean()), ""),
+    }
+    note = "input: torque of the sun by its planets; output: torque of the carrier by the crank bearings"
+    if _rigid(s):
+        del parts["crankshaft_share_max_output"]
+        note = "input: torque of the sun by its planets; what rigid crank bearings carry is not determined"
+    return Quantity(parts=parts, note=note)
+
+
+def _rigid(s: Stages) -> bool:
+    """Whether crankshafts and their bearings are rigid, so that nothing tells the forces in the bearings."""
+    return not s.scene.has("bearing_compliance")
 
 
 def _shares(parts: Array) -> Array:
@@ -95,8 +102,8 @@ def bearing_loads(s: Stages) -> Quantity:
     parts["arm_max"] = over_turn(s, lambda x: float(_arm(x).max()), "N")
     parts["arm_roller_max"] = over_turn(s, lambda x: float(x.arm.force.max()), "N")
     note = "over all crankshafts and a turn of them; A at the lower z"
-    if "crank0.rotation" in s.contact.fine.motions.names:
-        note = "rigid crank bearings: their loads are not shared out; list bearing_compliance"
+    if _rigid(s):
+        note = "what rigid crank bearings carry is not determined; list bearing_compliance"
         parts = {name: part for name, part in parts.items() if name.startswith("arm")}
     return Quantity(parts=parts, note=note)
 

@@ -121,20 +121,13 @@ def _contact(stages: Stages) -> Entries:
     at_sun = np.divide(mesh, whole, out=np.zeros_like(mesh), where=whole != 0)
     bearing = np.linalg.norm(series.bearing_force, axis=-1)
     arm = np.linalg.norm(series.arm.resultant, axis=-1)
-    return {
+    made = {
         "ring_pin_force": _shown(
             (*disc, "pin"), series.ring.force, "N", "ring pin force", SHARING, plot="heatmap"
         ),
         "ring_pin_pressure": entry((*disc, "pin"), series.ring.pressure, "Pa", "pressure at each ring pin"),
         "disc_torque_share": _shown(disc, disc_shares(stages, series), "", "share of the torque", SHARING),
         "sun_torque_share": _shown(crank, at_sun, "", "share of the sun's torque", CRANK_SHARES),
-        "carrier_torque_share": _shown(
-            crank, crank_shares(stages, series), "", "share of the carrier's torque", CRANK_SHARES
-        ),
-        "crank_bearing_force": _shown((*crank, "bearing"), bearing, "N", "crank-bearing force", CRANKS),
-        "crank_bearing_force_components": entry(
-            (*crank, "bearing", "axis"), series.bearing_force, "N", "force of a crankshaft on the carrier"
-        ),
         "arm_force": _shown((*disc, "crankshaft"), arm, "N", "force of a disc on a crankshaft", ARMS),
         "arm_roller_force": entry(
             (*disc, "crankshaft", "roller"),
@@ -150,6 +143,17 @@ def _contact(stages: Stages) -> Entries:
             disc, series.arm.pressure.max(axis=(2, 3)), "Pa", "pressure, rollers", PRESSURE
         ),
     }
+    if stages.scene.has("bearing_compliance"):  # else nothing tells what the crank bearings carry
+        made |= {
+            "carrier_torque_share": _shown(
+                crank, crank_shares(stages, series), "", "share of the carrier's torque", CRANK_SHARES
+            ),
+            "crank_bearing_force": _shown((*crank, "bearing"), bearing, "N", "crank-bearing force", CRANKS),
+            "crank_bearing_force_components": entry(
+                (*crank, "bearing", "axis"), series.bearing_force, "N", "force of a crankshaft on the carrier"
+            ),
+        }
+    return made
 
 
 def _output(stages: Stages) -> Entries:
