@@ -6,10 +6,7 @@ import base64
 import json
 import math
 import re
-import subprocess
-import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -285,31 +282,6 @@ def test_arrows_are_as_long_as_forces_are_large() -> None:
     assert spec["moving"][2]["text"] == [[], ["disc 1 · pin 4 · 100 N"], ["disc 1 · pin 4 · 200 N"]]
     assert spec["captions"] == [
         "nothing touches",
-        *(f"disc 1: 1 forces, largest {f} N (pin 4)" for f in (100, 200)),
+        *(f"disc 1: 1 force, {f} N (pin 4)" for f in (100, 200)),
     ]
     assert spec["scale"] == "Arrows: 560 mm for 200 N."
-
-
-@pytest.mark.regression
-def test_writing_is_quick(tmp_path: Path) -> None:
-    """60 positions, 40 drawing frames, two discs of 12 740 nodes: imports included, 1.0 s on 2 idle cores."""
-    code = """if True:
-        import importlib.util, pathlib, sys, time
-        start = time.perf_counter()
-        import xarray, numpy, trochoid.results, meshio, jinja2
-        loaded = time.perf_counter() - start
-        spec = importlib.util.spec_from_file_location("made_up", sys.argv[1])
-        made_up = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(made_up)
-        outcome = made_up.build(around=130, across=24)
-        start = time.perf_counter()
-        trochoid.results.write(outcome, pathlib.Path(sys.argv[2]))
-        print(loaded + time.perf_counter() - start)
-    """
-    conftest = Path(__file__).parent / "conftest.py"
-    command = [sys.executable, "-c", code, str(conftest), str(tmp_path / "out")]
-    seconds = min(
-        float(subprocess.run(command, capture_output=True, text=True, check=True).stdout) for _ in range(2)
-    )
-    assert seconds < 3.0  # twice the limit, for machines that are busy with other tests
-    assert (tmp_path / "out" / "report.html").stat().st_size < 8e6

@@ -39,7 +39,8 @@ def summary(frame: DrawingFrame) -> str:
     for group, acting in groups.items():
         top = max(acting, key=magnitude)
         where = f" ({top.label})" if top.label else ""
-        parts.append(f"{group}: {len(acting)} forces, largest {number(magnitude(top), 4)} N{where}")
+        many = f"{len(acting)} forces, largest" if len(acting) > 1 else "1 force,"
+        parts.append(f"{group}: {many} {number(magnitude(top), 4)} N{where}")
     return "; ".join(parts) or "nothing touches"
 
 

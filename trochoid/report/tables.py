@@ -11,7 +11,10 @@ from trochoid.results.outcome import Parts, Quantity
 
 _TILE = 4  # parts that still fit into a tile
 _WIDE = 6  # columns that still fit beside each other
+_HALF = 42  # characters that fit side by side into half of the page
+_ALONE = 3  # parts with which a thing by itself has a table of its own
 Leaf = tuple[str, Quantity]
+Group = tuple[str, Mapping[str, Quantity]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +56,15 @@ class Table:
     model: str = ""
     note: str = ""
 
+    @property
+    def wide(self) -> bool:
+        """Whether its columns need the whole width of the page."""
+        if not self.head:
+            return False
+        lines = [("", self.head), *((row.name, row.cells) for row in self.rows)]
+        columns = zip(*((name, *cells) for name, cells in lines), strict=False)
+        return len(self.head) > 2 or sum(max(map(len, column)) for column in columns) > _HALF
+
 
 def tiles_of(quantities: Mapping[str, Quantity]) -> list[Tile]:
     """Return the quantities that are one value or a few."""
@@ -61,7 +73,7 @@ def tiles_of(quantities: Mapping[str, Quantity]) -> list[Tile]:
 
 def tables_of(quantities: Mapping[str, Quantity]) -> list[Table]:
     """Return the other quantities; where several things have the same parts, a row per thing, or a column per thing
-    where these are many; things with other parts have tables of their own.
+    where the parts are many; a thing with parts of its own has a table of its own.
     """
     return [
         table
@@ -105,45 +117,74 @@ def _number(name: str, quantity: Quantity) -> Number:
 
 
 def _tables(name: str, quantity: Quantity) -> list[Table]:
-    """Return one table of a quantity, or one for each run of parts that are alike, where there are such runs."""
-    runs: list[dict[str, Quantity | Parts]] = []
-    for key, part in (quantity.parts or {}).items():
-        alike = runs and _shared_columns([*map(_inner, runs[-1].values()), _inner(part)])
-        if alike or (runs and not _columns(runs[-1]) and not _columns({key: part, "": part})):
-            runs[-1][key] = part
-        else:
-            runs.append({key: part})
-    if not any(_columns(run) for run in runs):
-        return [_table(name, quantity)]
-    tables = [_table(name, replace(quantity, parts=run, note=None)) for run in runs]
-    return [*tables[:-1], replace(tables[-1], note=quantity.note or "")]
-
-
-def _columns(parts: Parts) -> tuple[str, ...]:
-    return _shared_columns([_inner(part) for part in parts.values()])
-
-
-def _table(name: str, quantity: Quantity) -> Table:
-    parts = quantity.parts or {}
-    leaves = list(_leaves(parts))
-    model = quantity.model or _shared_model(leaves)
-    groups = [(key, _inner(part)) for key, part in parts.items()]
-    columns = _shared_columns([group for _, group in groups])
-    if len(columns) > _WIDE:
-        rows = [Row(text.label(c), tuple(_cell(group[c], "") for _, group in groups)) for c in columns]
-        return Table(
-            text.label(name), tuple(rows), tuple(text.label(k) for k, _ in groups), model, quantity.note or ""
+    """Return the tables of a quantity: one for groups that are alike, one for a group by itself, one for the rest."""
+    made: list[Table] = []
+    for run in _runs(list(_groups(quantity.parts or {}))):
+        model = quantity.model or _shared_model([leaf for _, group in run for leaf in group.items()])
+        if len(run) > 1:
+            made.append(_grid(name, run, model))
+            continue
+        path, group = run[0]
+        alone = bool(path) and len(group) >= _ALONE
+        rows = tuple(
+            _row(
+                leaf if alone or not path else f"{path} · {text.spoken(leaf)}",
+                entry,
+                "" if model else entry.model,
+            )
+            for leaf, entry in group.items()
         )
-    units = {column: _shared_unit([group[column] for _, group in groups]) for column in columns}
-    head = tuple(f"{text.label(c)} ({units[c]})" if units[c] else text.label(c) for c in columns)
-    if columns:
-        rows = [Row(text.label(k), tuple(_cell(group[c], units[c]) for c in columns)) for k, group in groups]
-    else:
-        rows = [_row(path, leaf, "" if model else leaf.model or "") for path, leaf in leaves]
-    return Table(text.label(name), tuple(rows), head, model, quantity.note or "")
+        title = text.label(f"{name} · {path}") if alone else text.label(name)
+        if made and not alone and not made[-1].head and made[-1].title == title and made[-1].model == model:
+            made[-1] = replace(made[-1], rows=made[-1].rows + rows)
+        else:
+            made.append(Table(title, rows, (), model))
+    return [*made[:-1], replace(made[-1], note=quantity.note or "")] if made else []
 
 
-def _row(path: str, leaf: Quantity, model: str) -> Row:
+def _grid(name: str, run: Sequence[Group], model: str) -> Table:
+    """Return groups with the same keys as rows, or as columns where the keys are many."""
+    keys = list(run[0][1])
+    names = [text.label(path) for path, _ in run]
+    if len(keys) > _WIDE:
+        rows = [Row(text.label(key), tuple(_cell(group[key], "") for _, group in run)) for key in keys]
+        return Table(text.label(name), tuple(rows), tuple(names), model)
+    units = {key: _shared_unit([group[key] for _, group in run]) for key in keys}
+    head = tuple(f"{text.label(key)} ({units[key]})" if units[key] else text.label(key) for key in keys)
+    rows = [
+        Row(label, tuple(_cell(group[key], units[key]) for key in keys))
+        for label, (_, group) in zip(names, run, strict=True)
+    ]
+    return Table(text.label(name), tuple(rows), head, model)
+
+
+def _groups(parts: Parts, path: str = "") -> Iterator[Group]:
+    """Yield the values that stand together among nested parts, with the path to them ("" for the outermost)."""
+    loose: dict[str, Quantity] = {}
+    for name, part in parts.items():
+        if isinstance(part, Quantity) and part.parts is None:
+            loose[name] = part
+            continue
+        if loose:
+            yield path, loose
+            loose = {}
+        yield from _groups(_inner(part), f"{path} · {text.spoken(name)}" if path else name)
+    if loose:
+        yield path, loose
+
+
+def _runs(groups: Sequence[Group]) -> list[list[Group]]:
+    """Return neighbouring groups with the same keys together."""
+    runs: list[list[Group]] = []
+    for path, group in groups:
+        if path and runs and runs[-1][-1][0] and list(runs[-1][-1][1]) == list(group):
+            runs[-1].append((path, group))
+        else:
+            runs.append([(path, group)])
+    return runs
+
+
+def _row(path: str, leaf: Quantity, model: str | None) -> Row:
     return Row(text.label(path), (text.sentence(leaf),), " · ".join(filter(None, (model, leaf.note))))
 
 
@@ -162,13 +203,6 @@ def _shared_model(leaves: Sequence[Leaf]) -> str:
     return models.pop() or "" if len(models) == 1 else ""
 
 
-def _shared_columns(groups: Sequence[Parts]) -> tuple[str, ...]:
-    """Return the keys of `groups` when all have the same ones and these are values; else nothing."""
-    if len(groups) < 2 or not groups[0] or any(list(group) != list(groups[0]) for group in groups):
-        return ()
-    return tuple(groups[0]) if all(_is_leaf(part) for group in groups for part in group.values()) else ()
-
-
 def _inner(part: Quantity | Parts) -> Parts:
     return (part.parts or {}) if isinstance(part, Quantity) else part
 
@@ -177,16 +211,14 @@ def _is_leaf(part: Quantity | Parts) -> bool:
     return isinstance(part, Quantity) and part.parts is None
 
 
-def _shared_unit(column: Sequence[Quantity | Parts]) -> str:
+def _shared_unit(column: Sequence[Quantity]) -> str:
     """Return the unit that all of a column have, which its head then names; else nothing."""
-    units = {part.unit for part in column if isinstance(part, Quantity)}
+    units = {part.unit for part in column}
     return text.pretty_unit(units.pop()) if len(units) == 1 else ""
 
 
-def _cell(part: Quantity | Parts, named: str) -> str:
+def _cell(part: Quantity, named: str) -> str:
     """Return the value, without its unit where the column's head has `named` it."""
-    if not isinstance(part, Quantity):
-        return ""
     return text.sentence(replace(part, unit="") if named else part)
 
 

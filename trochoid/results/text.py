@@ -23,6 +23,8 @@ _PLAIN = {
     "\u202f": "",
 }
 _MINUS = "−"
+_NO_SYMBOL = r"(?<!^[A-Z])_|_(?![A-Z0-9]_)"  # an underscore that is not the one of "R_A_mean"
+_ENDINGS = {" max": "largest", " min": "least", " mean": "mean"}  # of names, and what headings say
 
 
 def pretty_unit(unit: str) -> str:
@@ -34,15 +36,17 @@ def pretty_unit(unit: str) -> str:
 def label(name: str) -> str:
     """Return the heading of a name: "mass" → "Mass", "stress_max" → "Largest stress"; a symbol ("R_A") stays."""
     words = spoken(name)
-    if words.endswith(" max"):
-        words = f"{words[:-4]} largest" if words.endswith(" · max") else f"largest {words[:-4]}"
+    for ending, word in _ENDINGS.items():
+        if words.endswith(ending):
+            words = words.removesuffix(ending)
+            words = f"{words} {word}" if words.endswith(" ·") else f"{word} {words}"
     return words[:1].upper() + words[1:]
 
 
 def spoken(name: str) -> str:
-    """Return a name in words; symbols such as R_A and M_3 stay as they are."""
+    """Return a name in words; symbols such as R_A and M_3 stay as they are, alone or at the head of a name."""
     return " · ".join(
-        part if re.fullmatch(r"[A-Z]_\w{1,2}", part) else part.replace("_", " ").strip()
+        part if re.fullmatch(r"[A-Z]_\w{1,2}", part) else re.sub(_NO_SYMBOL, " ", part).strip()
         for part in name.split(" · ")
     )
 
