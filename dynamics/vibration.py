@@ -37,6 +37,7 @@ class Vibration:
     (points, 3) by direction and `rms_vector` (points,) over `band`; `rms_max` the largest of `rms`, at
     `worst` (point, direction). `resolved_to` Hz is what the sampling shows; `upper_share` the part of the
     worst rms² in the upper third of the lines: when it is not small, there is more above.
+    `natural_frequencies` Hz are those of the casing on its mounts, of an elastic one as far as it keeps modes.
     """
 
     points: tuple[Point, ...]
@@ -110,6 +111,7 @@ def _elastic(
     maps = np.stack([structure.points[point.name].motion[:3] for point in points])
     velocity = np.asarray(np.einsum("pij,fj->pif", maps, motion))
     natural = natural_modes(structure.mass, structure.stiffness).hertz
+    natural = natural[natural <= structure.upper]  # those above are of static shapes, not of modes
     found = _evaluate(tuple(points), frequencies, velocity, band, natural)
     if structure.upper >= band[1]:
         return found

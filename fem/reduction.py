@@ -7,7 +7,7 @@ u = Ψ q_b + Φ q_m        Ψ: static shapes of the interfaces' motions, exact f
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,23 +15,14 @@ from scipy.sparse import csc_matrix, hstack, identity, kron
 
 from trochoid.fem.linear_solver import Solve, factorise
 from trochoid.fem.solid import SolidBody, rigid_motions
+from trochoid.fem.solid_interface import Interface, Triple, carried, free_nodes, rigid_of
 from trochoid.fem.solid_modes import modes_below
 from trochoid.geometry.solid_places import patch
-from trochoid.kinematics.errors import Infeasible, TrochoidError
+from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, IntArray, frozen
 
-Triple = tuple[float, float, float]
 UPPER = 2000.0  # Hz: twice the upper end of the band 10–1000 Hz
 LOST = 1e-5  # of an interface's stiffness: what a rigid motion may seem to cost; rounding leaves 1e-10
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Interface:
-    """Nodes (k,) of a mesh that move as one rigid body; its six coordinates are those of `position` (m)."""
-
-    name: str
-    position: Triple
-    nodes: IntArray
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -64,16 +55,6 @@ class Reduced:
         raise TrochoidError(f"no interface {name!r}; there are {known}")
 
 
-def interfaces_of(body: SolidBody, positions: Mapping[str, Triple]) -> tuple[Interface, ...]:
-    """Return an interface of each named set of the mesh with its position; raises TrochoidError for an unknown set."""
-    unknown = [name for name in positions if name not in body.mesh.sets]
-    if unknown:
-        raise TrochoidError(
-            f"the mesh has no set {', '.join(map(repr, unknown))}; there are {', '.join(body.mesh.sets) or 'none'}"
-        )
-    return tuple(Interface(name, at, body.mesh.sets[name]) for name, at in positions.items())
-
-
 def reduce(
     body: SolidBody, interfaces: Sequence[Interface], upper: float = UPPER, solver: str | None = None
 ) -> Reduced:
@@ -82,7 +63,7 @@ def reduce(
     Rigid motions cost nothing, to rounding: what the solver leaves is taken out.  Raises Infeasible without
     interfaces, for one of fewer than three nodes or all on a line, and for two that share nodes.
     """
-    free = _free_nodes(body, interfaces)
+    free = free_nodes(body, interfaces)
     dofs = (3 * free[:, None] + np.arange(3)).ravel()
     held = csc_matrix(body.stiffness[dofs][:, dofs])
     solve = factorise(held, solver)
@@ -113,7 +94,7 @@ def reading(reduced: Reduced, position: Triple, radius: float | None = None) -> 
 
 def rigid_coordinates(reduced: Reduced, about: Triple = (0.0, 0.0, 0.0)) -> Array:
     """Return the coordinates (n, 6) of unit translations and rotations about a point."""
-    return frozen(_rigid(reduced.interfaces, reduced.size, about))
+    return frozen(rigid_of(reduced.interfaces, reduced.size, about))
 
 
 def interface_stiffness(reduced: Reduced) -> Array:
@@ -124,10 +105,10 @@ def interface_stiffness(reduced: Reduced) -> Array:
 
 def joined(body: SolidBody, interfaces: Sequence[Interface]) -> csc_matrix:
     """Return the map (3p, 6k + f) from interfaces' coordinates and all other displacements to those of all points."""
-    free = _free_nodes(body, interfaces)
+    free = free_nodes(body, interfaces)
     dofs = (3 * free[:, None] + np.arange(3)).ravel()
     own = csc_matrix((np.ones(len(dofs)), (dofs, np.arange(len(dofs)))), shape=(body.size, len(dofs)))
-    return csc_matrix(hstack([csc_matrix(_carried(body, interfaces)), own]))
+    return csc_matrix(hstack([csc_matrix(carried(body, interfaces)), own]))
 
 
 def spread(mass: csc_matrix) -> csc_matrix:
@@ -135,47 +116,9 @@ def spread(mass: csc_matrix) -> csc_matrix:
     return csc_matrix(kron(mass, identity(3), format="csc"))
 
 
-def _free_nodes(body: SolidBody, interfaces: Sequence[Interface]) -> IntArray:
-    if not interfaces:
-        raise Infeasible("a reduced body needs at least one interface: a bore, a foot")
-    owner = np.full(len(body.mesh.points), -1)
-    for i, interface in enumerate(interfaces):
-        taken = owner[interface.nodes] >= 0
-        if taken.any():
-            other = interfaces[int(owner[interface.nodes][taken][0])].name
-            raise Infeasible(
-                f"interfaces {other} and {interface.name} share {int(taken.sum())} nodes, and each moves as one rigid "
-                "body; make them smaller, or one interface of both"
-            )
-        points = body.mesh.points[interface.nodes]
-        spans = (
-            np.linalg.svd(points - points.mean(axis=0), compute_uv=False) if len(points) > 2 else np.zeros(3)
-        )
-        if spans[1] <= 1e-6 * body.mesh.extent:
-            raise Infeasible(
-                f"interface {interface.name} has {len(points)} nodes on a line: a rigid body needs three that are not"
-            )
-        owner[interface.nodes] = i
-    if (owner >= 0).all():
-        raise Infeasible(
-            "the interfaces hold every node of the mesh: nothing is left to yield; mesh it more finely"
-        )
-    return np.flatnonzero(owner < 0)
-
-
-def _carried(body: SolidBody, interfaces: Sequence[Interface]) -> Array:
-    """Return the displacements (3p, 6k) of all points that interfaces carry, others at rest."""
-    moved = np.zeros((body.size, 6 * len(interfaces)))
-    for i, interface in enumerate(interfaces):
-        dofs = (3 * interface.nodes[:, None] + np.arange(3)).ravel()
-        rigid = rigid_motions(body.mesh.points[interface.nodes], np.asarray(interface.position))
-        moved[dofs, 6 * i : 6 * i + 6] = rigid
-    return moved
-
-
 def _static_shapes(body: SolidBody, interfaces: Sequence[Interface], dofs: IntArray, solve: Solve) -> Array:
     """Return Ψ (3p, 6k): displacements of all points under unit motions of the interfaces."""
-    shapes = _carried(body, interfaces)
+    shapes = carried(body, interfaces)
     shapes[dofs] = -solve((body.stiffness @ shapes)[dofs])
     return shapes
 
@@ -196,7 +139,7 @@ def _projected(
 
 def _without_rigid(stiffness: Array, interfaces: Sequence[Interface]) -> Array:
     """Take out of a stiffness (6k, 6k) what the solver's rounding makes rigid motions cost."""
-    rigid = _rigid(interfaces, len(stiffness), interfaces[0].position)
+    rigid = rigid_of(interfaces, len(stiffness), interfaces[0].position)
     unit = 1.0 / np.sqrt(np.diag(stiffness))  # metres and radians on one scale
     scaled = stiffness * np.outer(unit, unit)
     base, _ = np.linalg.qr(rigid / unit[:, None])
@@ -209,11 +152,3 @@ def _without_rigid(stiffness: Array, interfaces: Sequence[Interface]) -> Array:
             "ill-conditioned; mesh it without very thin elements"
         )
     return np.asarray(0.5 * (left + left.T) / np.outer(unit, unit))
-
-
-def _rigid(interfaces: Sequence[Interface], size: int, about: Triple) -> Array:
-    motion = np.zeros((size, 6))
-    for i, interface in enumerate(interfaces):
-        motion[6 * i : 6 * i + 3] = rigid_motions(np.array([interface.position]), np.asarray(about))
-        motion[6 * i + 3 : 6 * i + 6, 3:] = np.eye(3)
-    return motion

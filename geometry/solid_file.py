@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -27,21 +29,29 @@ def read_solid(path: Path | str, scale: float = 1.0, places: Mapping[str, Place]
     by their shape (m).  Raises TrochoidError for a file that cannot be read, without solid elements, or with several
     kinds of them.
     """
-    import meshio
-
-    try:
-        mesh = meshio.read(path)
-    except SystemExit as fault:  # what meshio raises for an unknown ending
-        raise TrochoidError(f"{path}: no mesh format that meshio knows") from fault
-    except (OSError, meshio.ReadError, ValueError, KeyError, IndexError) as fault:
-        said = str(fault) or type(fault).__name__
-        raise TrochoidError(f"{path}: the mesh cannot be read ({said})") from fault
+    mesh = _read(path)
     if not scale > 0.0:
         raise TrochoidError(f"scale must be above 0 metres per unit of the file, given {scale}")
     kind = _one_kind(path, mesh)
     elements = np.concatenate([block.data for block in mesh.cells if block.type == kind]).T
     found = solid_mesh(scale * mesh.points, elements.astype(np.intp), _sets(mesh))
     return find(found, places) if places else found
+
+
+def _read(path: Path | str) -> meshio.Mesh:
+    import meshio
+
+    said = (
+        io.StringIO()
+    )  # meshio prints what its readers miss, and ends the program where none understands the file
+    try:
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            return meshio.read(path)
+    except (Exception, SystemExit) as fault:
+        why = str(fault) if isinstance(fault, Exception) else " ".join(said.getvalue().split())
+        raise TrochoidError(
+            f"{path}: the mesh cannot be read ({why}); give a format that meshio knows"
+        ) from fault
 
 
 def _one_kind(path: Path | str, mesh: meshio.Mesh) -> str:

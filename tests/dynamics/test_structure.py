@@ -17,8 +17,9 @@ from trochoid.dynamics.structure import Place, Structure, elastic_casing, rigid_
 from trochoid.dynamics.vibration import Point, vibrate
 from trochoid.dynamics.wrench import Wrench, total
 from trochoid.fem.material import Material
-from trochoid.fem.reduction import Reduced, interfaces_of, reduce
+from trochoid.fem.reduction import Reduced, reduce
 from trochoid.fem.solid import solid_body
+from trochoid.fem.solid_interface import interfaces_of
 from trochoid.geometry.casing_box import centers
 from trochoid.geometry.casing_mesh import mesh_casing
 from trochoid.kinematics.errors import TrochoidError

@@ -16,10 +16,8 @@ from trochoid.dynamics.modes import natural_modes
 from trochoid.fem.linear_solver import Solve, factorise
 from trochoid.fem.material import Material
 from trochoid.fem.reduction import (
-    Interface,
     Reduced,
     interface_stiffness,
-    interfaces_of,
     joined,
     reading,
     reduce,
@@ -28,6 +26,7 @@ from trochoid.fem.reduction import (
 )
 from trochoid.fem.reduction_error import reduction_error
 from trochoid.fem.solid import mass_properties, rigid_motions, solid_body
+from trochoid.fem.solid_interface import Interface, interfaces_of
 from trochoid.geometry.casing_box import centers
 from trochoid.geometry.casing_mesh import mesh_casing
 from trochoid.geometry.solid_mesh import solid_mesh

@@ -188,7 +188,7 @@ def test_files_keep_the_mesh(tmp_path: Path, ending: str, kind: str) -> None:
 
 
 @pytest.mark.exact
-def test_files_that_do_not_serve_are_refused(tmp_path: Path) -> None:
+def test_files_that_do_not_serve_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A surface alone, wedges, two kinds, no such file, an unknown ending, a scale of zero."""
     points, cubes = grid((2, 1, 1))
     shapes = {
@@ -206,5 +206,12 @@ def test_files_that_do_not_serve_are_refused(tmp_path: Path) -> None:
     (tmp_path / "body.xyz1").write_text("no mesh")
     with pytest.raises(TrochoidError, match=r"format|cannot be read"):
         read_solid(tmp_path / "body.xyz1")
+    (tmp_path / "body.msh").write_text("no mesh")
+    with pytest.raises(TrochoidError, match="cannot be read"):
+        read_solid(tmp_path / "body.msh")
+    (tmp_path / "body.vtu").write_text("<no mesh")
+    with pytest.raises(TrochoidError, match="cannot be read"):
+        read_solid(tmp_path / "body.vtu")
     with pytest.raises(TrochoidError, match="scale"):
         read_solid(tmp_path / "surface.vtu", 0.0)
+    assert capsys.readouterr() == ("", "")  # meshio prints on its own account
