@@ -64,7 +64,8 @@ def _collection(folder: Path) -> Path:
     collection = folder / COLLECTION
     if not collection.is_file():
         raise TrochoidError(
-            f"no {COLLECTION} in {folder}: run a scene that asks for stress_max into this folder first"
+            f"no {COLLECTION} in {folder}: fields are written for stress_max, where the drive offers it; all other "
+            "pictures are in report.html"
         )
     return collection
 
