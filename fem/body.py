@@ -76,7 +76,13 @@ def build_body(mesh: Mesh, plane: Plane, supports: tuple[str, ...] = (), solver:
 
     Raises TrochoidError when a named edge does not exist.
     """
-    parts = elements(mesh, plane)
+    return body_of(mesh, plane, elements(mesh, plane), supports, solver)
+
+
+def body_of(
+    mesh: Mesh, plane: Plane, parts: Elements, supports: tuple[str, ...] = (), solver: str | None = None
+) -> Body:
+    """Return the body of given elements; `plane` are the moduli where it is pressed. See `build_body`."""
     n = len(mesh.points)
     held = np.zeros(n, dtype=bool)
     for name in supports:

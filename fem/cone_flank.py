@@ -17,9 +17,9 @@ from trochoid.kinematics.curve import ArcLength
 from trochoid.kinematics.spherical_curve import SphericalCurve
 from trochoid.kinematics.types import Array, IntArray
 
-SPREAD = (
-    1.0  # half width of the load in facets: below one the elements do not see it, above 1.5 it is too blunt
-)
+# Half width of the load in facets.  What the elements miss of it, in units of the logarithm: 1: 0.027, 1.5: 0.007,
+# 2.5: 0.000; but the wider it is, the more it bends with the flank.
+SPREAD = 1.5
 _GAUSS = np.polynomial.legendre.leggauss(6)
 
 
@@ -27,8 +27,9 @@ _GAUSS = np.polynomial.legendre.leggauss(6)
 class Flank:
     """A pressed side of a mesh.
 
-    `edge` (3, k) nodes of its facets, `ends` (k+1,) their arc lengths, rad, from the first on; `centers` (k,) of the
-    stations, the facets' middles, and `half_width` (k,) of their loads, rad.
+    `edge` (3, f) nodes of its facets, `ends` (f+1,) their arc lengths, rad, from the first on; `centers` (k,) of the
+    stations, the facets' middles, and `half_width` (k,) of their loads, rad.  Where crests are cut, `edges` (2,) are
+    the arc lengths of the edges: there are no stations between them, and no load reaches over them.
     """
 
     curve: SphericalCurve
@@ -39,6 +40,7 @@ class Flank:
     half_width: Array
     nodes: int
     arc: ArcLength
+    edges: tuple[float, float] | None = None
 
     @property
     def length(self) -> float:
@@ -54,20 +56,31 @@ class Flank:
         """Return the facet at arc lengths (...), rad, of the side continued periodically: any integer."""
         turn = np.floor(place / self.length)
         inside = np.searchsorted(self.ends, place - turn * self.length, side="right") - 1
-        count = len(self.centers)
+        count = len(self.ends) - 1
         return np.asarray(np.clip(inside, 0, count - 1) + count * turn, dtype=np.intp)
 
 
-def flank(mesh: SphereMesh, curve: SphericalCurve, side: str = "flank", spread: float = SPREAD) -> Flank:
-    """Return the stations of a side that lies on `curve`."""
+def flank(
+    mesh: SphereMesh,
+    curve: SphericalCurve,
+    side: str = "flank",
+    spread: float = SPREAD,
+    cut: tuple[float, float] | None = None,
+) -> Flank:
+    """Return the stations of a side that lies on `curve`, but between the parameters `cut` of a crest cut away."""
     parameters = mesh.parameters[side]
     arc = ArcLength(curve)
     s = arc.length(np.append(parameters[0], parameters[1, -1]))
     ends = s - s[0]
-    centers = 0.5 * (ends[1:] + ends[:-1])
-    return Flank(
-        curve, mesh.edges[side], parameters, ends, centers, spread * np.diff(ends), len(mesh.points), arc
-    )
+    centers, half = 0.5 * (ends[1:] + ends[:-1]), spread * np.diff(ends)
+    edges = None
+    if cut is not None:
+        low, high = (float(x) for x in arc.length(np.array(cut)) - s[0])
+        edges = low, high
+        on = (centers < low) | (centers > high)
+        centers, half = centers[on], half[on]
+        half = np.minimum(half, np.where(centers < low, low - centers, centers - high))
+    return Flank(curve, mesh.edges[side], parameters, ends, centers, half, len(mesh.points), arc, edges)
 
 
 def load_at(side: Flank, center: float, half_width: float) -> csc_matrix:

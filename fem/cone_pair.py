@@ -7,16 +7,16 @@ close the gap by n·d, to first order, alike along the roller.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from trochoid.fem.cone_slices import Slices
 from trochoid.kinematics.curve import ArcLength
 from trochoid.kinematics.sphere_tooth import SphereTooth
-from trochoid.kinematics.spherical import turn
+from trochoid.kinematics.spherical import angle_between, turn, unit
 from trochoid.kinematics.spherical_curve import foot_point
-from trochoid.kinematics.types import Array, IntArray
+from trochoid.kinematics.types import Array, BoolArray, IntArray
 
 RIGID = np.eye(6)  # rotations x, y, z about O, then translations x, y, z
 ROTATIONS = RIGID[:, :3]
@@ -26,6 +26,7 @@ ROTATIONS = RIGID[:, :3]
 class ConeState:
     """Contacts of n positions with C rollers.
 
+    `off` (n, C): the roller stands beyond the edge of a cut crest, and touches the edge if anything.
     `gap` (n, C, s) in m, `arms` (n, C, s, k) closing per unit motion, `place` (n, C) arc length from the start of
     tooth 0 and `parameter` (n, C) on the flank, `point` and `normal` (n, C, 3) on the unit sphere, `bend` (n, C) the
     relative curvature in 1/rad: a radius is ρ/bend.
@@ -38,6 +39,7 @@ class ConeState:
     point: Array
     normal: Array
     bend: Array
+    off: BoolArray
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -46,7 +48,8 @@ class RollerPair:
 
     `rollers` (C,) are numbers of pins; `moves` (6, k) turns motions into rotation and translation of the rim.
     `clearance` (rad) by which rollers are thinner than the flank was cut for; `relief` (C, s), m, further gaps from
-    crowning, misalignment and ground flanks.  `start` is the flank parameter where tooth 0 begins.
+    crowning, misalignment and ground flanks.  `start` is the flank parameter where tooth 0 begins, `edges` those
+    between which a crest is cut away.
     """
 
     tooth: SphereTooth
@@ -58,20 +61,11 @@ class RollerPair:
     clearance: float
     relief: Array
     arc: ArcLength
+    edges: tuple[float, float] | None = None
 
     def rows(self, rows: IntArray) -> RollerPair:
         """Return the pair at some positions."""
-        return RollerPair(
-            self.tooth,
-            self.crank[rows],
-            self.rollers,
-            self.slices,
-            self.moves,
-            self.start,
-            self.clearance,
-            self.relief,
-            self.arc,
-        )
+        return replace(self, crank=self.crank[rows])
 
     def at(self, motion: Array) -> ConeState:
         """Return the contacts after motions (n, k)."""
@@ -81,7 +75,12 @@ class RollerPair:
         shape = nominal.shape
         parameter, angle = foot_point(self.tooth, axis.reshape(-1, 3), nominal.ravel())
         parameter, angle = parameter.reshape(shape), angle.reshape(shape)
+        parameter, off = self._kept(parameter)
         point, normal = self.tooth.point(parameter), self.tooth.normal(parameter)
+        if off.any():  # the nearest point is the edge, and what it presses points at the axis
+            away = axis - np.sum(axis * point, axis=-1, keepdims=True) * point
+            normal = np.where(off[..., None], unit(away), normal)
+            angle = np.where(off, angle_between(axis, point), angle)
         rho = self.slices.middle
         open_angle = angle - (self.tooth.pin_angle - self.clearance)
         shift = np.sum(normal * step[:, None, 3:], axis=-1)
@@ -91,7 +90,18 @@ class RollerPair:
         bend = self.tooth.curvature(parameter) + 1.0 / np.tan(self.tooth.pin_angle - self.clearance)
         first = float(self.arc.length(self.start))
         place = self.arc.length(parameter) - first
-        return ConeState(gap, both @ self.moves, place, parameter, point, normal, bend)
+        return ConeState(gap, both @ self.moves, place, parameter, point, normal, bend, off)
+
+    def _kept(self, parameter: Array) -> tuple[Array, BoolArray]:
+        """Return parameters drawn back from cut crests to their edges, and where that was done."""
+        if self.edges is None:
+            return parameter, np.zeros(parameter.shape, dtype=bool)
+        pitch = 2.0 * np.pi / self.tooth.lobes
+        turn = np.floor((parameter - 0.5 * (sum(self.edges) - pitch)) / pitch) * pitch
+        low, high = (turn + edge for edge in self.edges)
+        off = (parameter > low) & (parameter < high)
+        edge = np.where(parameter < 0.5 * (low + high), low, high)
+        return np.where(off, edge, parameter), off
 
 
 def roller_pair(
@@ -103,12 +113,13 @@ def roller_pair(
     moves: Array = ROTATIONS,
     clearance: float = 0.0,
     relief: Array | float = 0.0,
+    edges: tuple[float, float] | None = None,
 ) -> RollerPair:
-    """Return all rollers (or those numbered) at crank angles (n,)."""
+    """Return all rollers (or those numbered) at crank angles (n,); `start` and `edges` are those of the rim's shape."""
     number = np.arange(tooth.pins) if rollers is None else np.asarray(rollers)
     given = np.broadcast_to(np.asarray(relief, dtype=np.float64), (len(number), len(slices.middle)))
     return RollerPair(
-        tooth, np.atleast_1d(crank), number, slices, moves, start, clearance, given, ArcLength(tooth)
+        tooth, np.atleast_1d(crank), number, slices, moves, start, clearance, given, ArcLength(tooth), edges
     )
 
 

@@ -22,6 +22,7 @@ from trochoid.kinematics.types import Array, BoolArray, IntArray
 STEPS = 60
 SETTLED = 1e-9  # of the largest force
 ROUNDING = 1e-14  # of the coordinates: gaps are not known better
+MOVED = 1e-6  # rad or m, over which arms and laws are differenced
 NEAR = 1e-3  # of a station's width: contacts that moved less keep their compliance
 
 
@@ -62,6 +63,10 @@ class ConeContact:
     `force` (n, C, s) in N on slices, `pressure` (n, C, s) the largest of each in Pa, `half_width` (n, C, s) in m,
     `motion` (n, k), `stiffness` (n, k, k) its tangent, `state` the geometry there, `steps` taken, `residual` (n,) the
     worst overlap, or opening of pressed slices, over the largest approach.
+
+    The stiffness is the symmetric part of the slope of load over motion, arms that turn and contacts that move along
+    the flank included.  (Forces act along the normal at the middle of each contact, so that a part is left over, of
+    per cents beside the bottoms of tooth spaces, which rollers nearly fill.)
     """
 
     force: Array
@@ -79,8 +84,12 @@ class ConeContact:
         return np.asarray(self.force.sum(axis=-1))
 
     def edge(self) -> BoolArray:
-        """Say where (n, C) an end slice is pressed: there a roller without crowning has a singular edge pressure."""
-        return np.asarray((self.force[..., 0] > 0.0) | (self.force[..., -1] > 0.0))
+        """Say where (n, C) the true pressure at an edge has no bound, and the one given is too low.
+
+        So it is where an end of a roller presses (a crowned one does not), and where the edge of a cut crest is pressed.
+        """
+        ends = (self.force[..., 0] > 0.0) | (self.force[..., -1] > 0.0)
+        return np.asarray(ends | (self.state.off & (self.total > 0.0)))
 
 
 def solve_cone(assembly: ConeAssembly, at_once: int = 16) -> ConeContact:
@@ -268,6 +277,7 @@ def _contact(
     law = elastic.law
     stiffness = np.empty((len(motion), motion.shape[1], motion.shape[1]))
     residual = np.zeros(len(motion))
+    turning, yielding = _moving(assembly, force, motion)
     slope = law.approach(np.maximum(force, 1e-300))[1]
     value = np.where(force > 0.0, law.approach(np.maximum(force, 1e-300))[0], 0.0)
     for i in range(len(motion)):
@@ -279,10 +289,33 @@ def _contact(
         residual[i] = overlap.max() / max(float(np.abs(value[i]).max()), 1e-300) if len(pressed) else 0.0
         inner = matrix[np.ix_(pressed, pressed)] + np.diag(slope[i].ravel()[pressed])
         arms = state.arms[i].reshape(-1, motion.shape[1])[pressed]
-        stiffness[i] = assembly.springs + arms.T @ np.linalg.solve(inner, arms)
+        closing = arms - yielding[i].reshape(-1, motion.shape[1])[pressed]
+        tangent = assembly.springs + turning[i] + arms.T @ np.linalg.solve(inner, closing)
+        stiffness[i] = 0.5 * (tangent + tangent.T)
     return ConeContact(
         force, law.pressure(force), law.half_width(force), motion, stiffness, state, steps, residual
     )
+
+
+def _moving(assembly: ConeAssembly, force: Array, motion: Array) -> tuple[Array, Array]:
+    """Return what changes as contacts move along the flank under their forces, by central differences.
+
+    Σ F ∂arm/∂motion (n, k, k), and the approach per unit motion (n, C, s, k) through radius and S.
+    """
+    turning, yielding = [], []
+    for step in MOVED * np.eye(motion.shape[1]):
+        states = [assembly.pair.at(motion + s * step) for s in (1.0, -1.0)]
+        turning.append(np.einsum("ncsk,ncs->nk", states[0].arms - states[1].arms, force))
+        yielding.append(np.subtract(*(_yielded(assembly, state, force) for state in states)))
+    double = 2.0 * MOVED
+    return np.stack(turning, axis=-1) / double, np.stack(yielding, axis=-1) / double
+
+
+def _yielded(assembly: ConeAssembly, state: ConeState, force: Array) -> Array:
+    place = assembly.rim.weights(state.place)
+    law = _law(assembly, state, assembly.rim.blunt(place))
+    own = np.einsum("ncst,nct->ncs", assembly.rim.on_itself(place), force)
+    return np.where(force > 0.0, own + law.approach(np.maximum(force, 1e-300))[0], 0.0)
 
 
 def _whole(elastic: _Elastic, i: int) -> Array:

@@ -71,7 +71,7 @@ def press_rim(
     web = () if size.web is None else size.web
     radial = layers(size.inner, size.outer, mesh.layers, (*ends, *web))
     body = cone_body(plane, radial, material, web=size.web)
-    side = flank(plane, shape.tooth, spread=mesh.spread)
+    side = flank(plane, shape.tooth, spread=mesh.spread, cut=shape.edges)
     loads = station_loads(side, body, size.reach)
     sector = condense(body, loads, shape.pitch, mesh.degree, solver)
     teeth = shape.tooth.lobes if size.teeth is None else size.teeth

@@ -40,7 +40,7 @@ class RimCompliance:
     (teeth that differ, k, f, f) that of a station on itself without the plane-strain term; `mean` (pairs, k, k) the
     table for even forces.  `layers` are those that contacts cover, `slices` their parts.  `kernel` 2/(πE') of the body
     in 1/Pa, `half_width` (k,) of the loads and `length` of a tooth's flank in rad.
-    `ends` (2,): where the body ends, m: free of stress.
+    `ends` (2,): where the body ends, m: free of stress; `split` stations lie before the cut crest of a tooth, if any.
     """
 
     table: Array
@@ -56,6 +56,7 @@ class RimCompliance:
     kernel: float
     poissons_ratio: float
     ends: tuple[float, float]
+    split: int | None = None
 
     @property
     def closed(self) -> bool:
@@ -75,6 +76,10 @@ class RimCompliance:
             np.searchsorted(self.centers, place - turn * self.length) - 2
         )  # second of four lies before the place
         number = below + (count * turn).astype(np.intp)
+        if self.split is not None:  # the four lie on the same side of every cut crest
+            crest = self.centers[self.split - 1 : self.split + 1].mean() + self.length * turn
+            first = count * (turn - (place < crest)).astype(np.intp) + self.split
+            number = np.clip(number, first, first + count - 4)
         if not self.closed:
             number = np.clip(number, 0, count * teeth - 4)
         index = number[..., None] + np.arange(4)
@@ -152,4 +157,5 @@ def rim_compliance(
         kernel,
         body.material.poissons_ratio,
         ends,
+        None if side.edges is None else int((side.centers < side.edges[0]).sum()),
     )

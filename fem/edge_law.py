@@ -1,16 +1,17 @@
 """Line contact beside a rounded edge: Hertz's parabola, cut off where one surface ends (the tip of a tooth).
 
-The parabola's vertex lies x inside the edge (negative: beyond it, where the surface would have to go on). Under the load
-the surfaces touch from the edge to b inside it, with a² = 2AFR of the uncut contact:
+The parabola's vertex lies x inside the edge (negative: beyond it, where the surface would have to go on). Under the
+load the surfaces touch from the edge to b inside it, with a² = 2AFR of the uncut contact:
 
     a² = ¾ b² − x b,   p ~ sqrt((b − s)/s)·(s + b/2 − x)   at s from the edge,
     h = A F (ln(4/b) + w − v/2) + x²/(2R),   dh/dF = A ln(4/b),   w = b (b/2 − x)/a²,   v = b²/(4a²),
 
-the last term for x > 0 only: then gaps count from the vertex, else from the edge. From x = a on it is Hertz's contact.
-Beyond the edge and under little load the contact sits on the rounding alone: Hertz's again, with the radius r. Both leave
-out what the other has, and are too soft; e^{−h/(AF)} of both are added as squares (strips on the exact profile: 0.1 % of a
-tooth pair's deflection, 0.5 % with the stiffer one alone). Singular integrals as in Johnson, Contact Mechanics, 2.7. The peak at the edge is limited by its rounding r: with d the
-pressed part of the rounding, (d/r^⅔)³ = (¾π sqrt(b)(b/2 − x)/R)², p = 1.20 E* d/(π r) (a half-plane, flat then round).
+the last term for x > 0 only: then gaps count from the vertex, else from the edge. From x = a on it is Hertz's
+contact. Beyond the edge and under little load the contact sits on the rounding alone: Hertz's again, with the radius
+r. Both leave out what the other has, and are too soft; e^{−h/(AF)} of both are added as squares (strips on the exact
+profile: 0.1 % of a tooth pair's deflection, 0.5 % with the stiffer one alone). Singular integrals as in Johnson,
+Contact Mechanics, 2.7. The peak at the edge is limited by its rounding r: with d the pressed part of the rounding,
+d³ = (¾π r sqrt(b)(b/2 − x)/R)², p = 1.20 E* d/(π r) (a half-plane, flat then round).
 """
 
 from __future__ import annotations
@@ -55,7 +56,8 @@ class EdgeLine:
         """Return how far from the contact point the surfaces touch at the most (c,), in m."""
         half = self._uncut.half_width(force)
         cut = _span(half, self.inside) - np.clip(self.inside, 0.0, half)
-        return np.where(self.inside < 0.0, np.maximum(cut, self._round.half_width(force)), cut)
+        # where both share the load, they touch farther than either alone
+        return np.where(self.inside < 0.0, cut + 2.0 * self._round.half_width(force), cut)
 
     def approach(self, force: Array) -> tuple[Array, Array]:
         """Return h and dh/dF (c,)."""
@@ -81,7 +83,7 @@ class EdgeLine:
         steep = np.sqrt(span) * np.maximum(0.5 * span - x, 0.0) / self.radius
         pressed = np.cbrt(0.75 * math.pi * self.rounding * steep) ** 2
         cut = np.maximum(middle, PEAK * 2.0 / (math.pi**2 * self.kernel) * pressed / self.rounding)
-        return np.where(self.inside < 0.0, np.minimum(cut, self._round.peak(force)), cut)
+        return np.asarray(np.where(self.inside < 0.0, np.minimum(cut, self._round.peak(force)), cut))
 
     def _cut(self, force: Array) -> tuple[Array, Array]:
         half = self._uncut.half_width(force)

@@ -12,18 +12,24 @@ casing), and displacements count from that edge; or it is free, and they count f
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from types import MappingProxyType
+from dataclasses import dataclass
 
 import numpy as np
 
 from trochoid.fem import flamant
 from trochoid.fem.body import Body, build_body
 from trochoid.fem.compliance import Compliance, solve_patches
+from trochoid.fem.gear_table import (
+    all_teeth,
+    flank_blocks,
+    flank_surfaces,
+    gear_compliance,
+    rim_surface,
+    with_rim,
+)
 from trochoid.fem.material import Plane
 from trochoid.fem.patch import Patch, PointForce, patch_load
-from trochoid.fem.surface import Surface, collocation, splined, without_kinks
-from trochoid.fem.tangential import drag
+from trochoid.fem.surface import Surface
 from trochoid.geometry.gear_outline import LEVEL, Blank, gear_growth, gear_outline
 from trochoid.geometry.mesh import Mesh, mesh_outline
 from trochoid.kinematics.types import Array, BoolArray, IntArray, frozen
@@ -45,7 +51,7 @@ class GearBody:
     asymmetry: float
 
     def first(self, number: IntArray, hand: int) -> IntArray:
-        """Return the first stations of flanks next to spaces `number`: at positive (hand 1) or negative polar angles."""
+        """Return the first stations of flanks next to spaces `number`, at positive (hand 1) or negative angles."""
         teeth, stations = self.blank.tooth.gear.teeth, len(self.flank.positions)
         tooth = np.mod(number if hand > 0 else number - 1, teeth)
         return (2 * tooth + (hand < 0)) * stations
@@ -53,7 +59,8 @@ class GearBody:
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """Where displacements are read: facet `nodes` (3, r) and their `shares` (3, r), `points` and inward normals (r, 2)."""
+    """Where displacements are read: facet `nodes` (3, r) and their `shares` (3, r), `points` and inward normals (r,
+    2)."""
 
     nodes: IntArray
     shares: Array
@@ -66,8 +73,9 @@ def press_gear(
 ) -> GearBody:
     """Mesh a gear, factor it and tabulate the compliance of its flanks, of unit thickness.
 
-    `level` facets per flank. `held`: the rim's edge is fixed; else the body is free, and with `rim`, the facets per tooth
-    there at the level 8, that edge is pressed too (rollers in a planet's bore). Raises Infeasible, TrochoidError.
+    `level` facets per flank. `held`: the rim's edge is fixed; else the body is free, and with `rim`, the facets per
+    tooth there at the level 8, that edge is pressed too (rollers in a planet's bore). Raises Infeasible,
+    TrochoidError.
     """
     outline = gear_outline(blank, level, rim)
     mesh = mesh_outline(outline, gear_growth(blank))
@@ -83,13 +91,20 @@ def press_gear(
         loads += [_load(mesh, loop.curve.normal, "rim", i) for i in range(count)]
         places = _joined([places, _rim_places(mesh, loop.curve.normal)])
     raw = _displacements(body, places, loads)
-    flanks, asymmetry = _flank_blocks(raw, teeth, len(facets))
-    table = _all_teeth(flanks)
-    surfaces = _surfaces(flank, teeth)
+    flanks, asymmetry = flank_blocks(raw, teeth, len(facets))
+    table = all_teeth(flanks)
+    surfaces = flank_surfaces(flank, teeth)
     if count:
-        table = _with_rim(table, raw, teeth, len(facets), count)
-        surfaces.append(_rim_surface(blank, plane, count, len(table) - teeth * count))
-    return GearBody(blank, level, body, _compliance(table, surfaces, places, body, count), flank, asymmetry)
+        table = with_rim(table, raw, teeth, len(facets), count)
+        surfaces.append(rim_surface(blank, plane, count, len(table) - teeth * count))
+    return GearBody(
+        blank,
+        level,
+        body,
+        gear_compliance(table, surfaces, places.points, plane.kernel, count),
+        flank,
+        asymmetry,
+    )
 
 
 def _flank(blank: Blank, mesh: Mesh) -> Surface:
@@ -117,7 +132,8 @@ def _load(mesh: Mesh, normal: Callable[[Array], Array], edge: str, facet: int) -
 
 
 def flank_places(blank: Blank, mesh: Mesh, t: Array, teeth: IntArray) -> Places:
-    """Return the stations t (n,) of tooth 0 on the flanks of `teeth`, one after the other, positive polar angles first."""
+    """Return the stations t (n,) of tooth 0 on the flanks of `teeth`, one after the other, positive polar angles
+    first."""
     number = teeth[:, None]
     every = np.stack([number + t, number + 1.0 - t], axis=1).ravel()
     edge, ends = mesh.edges["teeth"], mesh.parameters["teeth"]
@@ -159,7 +175,7 @@ def _displacements(body: Body, places: Places, loads: Sequence[PointForce]) -> A
         elsewhere = distance > 1e-9 * load.facet
         logarithm = np.log(np.where(elsewhere, distance, 1.0))
         smooth[:, k] += body.plane.kernel * logarithm + _singular(body, places, load, patch, elsewhere)
-    return smooth
+    return np.asarray(smooth)
 
 
 def _singular(body: Body, places: Places, load: PointForce, patch: Patch, elsewhere: BoolArray) -> Array:
@@ -171,90 +187,3 @@ def _singular(body: Body, places: Places, load: PointForce, patch: Patch, elsewh
     moved = flamant.displacement(body.plane, at, load.inward, load.force)
     np.add.at(result, row, places.shares[node, row] * np.einsum("ri,ri->r", moved, places.inward[row]))
     return result
-
-
-def _flank_blocks(raw: Array, teeth: int, count: int) -> tuple[Array, float]:
-    """Return S (teeth, 2, n, n) of flanks on the one of tooth 0, the same seen from either side, and what differed.
-
-    Block [d, 0] is of the flank of the same hand d teeth on, [d, 1] that of the other hand. By symmetry
-    T[d, 0] = T[-d, 0]ᵀ and T[d, 1] = T[d, 1]ᵀ.
-    """
-    blocks = raw[: 2 * teeth * count, :count].reshape(teeth, 2, count, count)
-    back = -np.arange(teeth) % teeth
-    other = np.stack([blocks[back, 0], blocks[:, 1]], axis=1).swapaxes(-1, -2)
-    return 0.5 * (blocks + other), float(np.abs(blocks - other).max() / np.ptp(blocks))
-
-
-def _all_teeth(blocks: Array) -> Array:
-    """Return S (k, k) between all flanks: turned by teeth, and mirrored for forces on the other hand."""
-    teeth, _, count, _ = blocks.shape
-    apart = (np.arange(teeth)[:, None] - np.arange(teeth)) % teeth
-    same, other = blocks[:, 0], blocks[:, 1]
-    back = -apart % teeth
-    # rows: tooth, hand, station; columns likewise
-    table = np.empty((teeth, 2, count, teeth, 2, count))
-    table[:, 0, :, :, 0] = same[apart].transpose(0, 2, 1, 3)
-    table[:, 1, :, :, 0] = other[apart].transpose(0, 2, 1, 3)
-    table[:, 0, :, :, 1] = other[back].transpose(0, 2, 1, 3)
-    table[:, 1, :, :, 1] = same[back].transpose(0, 2, 1, 3)
-    return table.reshape(2 * teeth * count, -1)
-
-
-def _with_rim(table: Array, raw: Array, teeth: int, count: int, rim: int) -> Array:
-    """Return the table with the stations of the rim's edge added, `rim` per tooth."""
-    first = len(table)
-    size = first + teeth * rim
-    full = np.empty((size, size))
-    full[:first, :first] = table
-    sector = np.arange(teeth)
-    apart = (sector[:, None] - sector) % teeth
-    from_flank = raw[first:, :count].reshape(teeth, rim, count)
-    mirrored = from_flank[-sector % teeth, ::-1]
-    on_rim = np.stack([from_flank[apart], mirrored[apart]], axis=2)  # sector, tooth, hand, rim, station
-    lower = on_rim.transpose(0, 3, 1, 2, 4).reshape(teeth * rim, first)
-    full[first:, :first], full[:first, first:] = lower, lower.T
-    own = raw[first:, count:].reshape(teeth, rim, rim)
-    own = 0.5 * (own + own[-sector % teeth].swapaxes(-1, -2))
-    own = 0.5 * (own + own[-sector % teeth, ::-1, ::-1])
-    full[first:, first:] = own[apart].transpose(0, 2, 1, 3).reshape(teeth * rim, -1)
-    return full
-
-
-def _surfaces(flank: Surface, teeth: int) -> list[Surface]:
-    count = len(flank.positions)
-    return [
-        replace(flank, name=f"tooth{tooth}{'+-'[hand]}", first=(2 * tooth + hand) * count)
-        for tooth in range(teeth)
-        for hand in range(2)
-    ]
-
-
-def _rim_surface(blank: Blank, plane: Plane, count: int, first: int) -> Surface:
-    radius, side = blank.rim_radius, -blank.tooth.gear.side
-    stations = blank.tooth.gear.teeth * count
-    angle = blank.tooth.pitch * (np.arange(stations) + 0.5) / count
-    bend = side / radius
-    return Surface("rim", frozen(radius * angle), 2 * np.pi * radius, first, drag(plane) * bend, side, bend)
-
-
-def _compliance(
-    table: Array, surfaces: Sequence[Surface], places: Places, body: Body, rim: int
-) -> Compliance:
-    """Return the table splined along all surfaces; on flanks, one matrix serves all."""
-    flank, first = surfaces[0], len(table)
-    smooth, diagonal = table, np.diag(table).copy()
-    if rim:
-        first = surfaces[-1].first
-        smooth = without_kinks(table, surfaces[-1:], places.points)
-        smooth, diagonal = splined(smooth, table, surfaces[-1:])
-    count = len(flank.positions)
-    inverse = np.linalg.inv(collocation(flank))
-    smooth = smooth.copy() if smooth is table else smooth
-    size = len(smooth)
-    smooth[:first] = (inverse @ smooth[:first].reshape(-1, count, size)).reshape(first, size)
-    smooth[:, :first] = (smooth[:, :first].reshape(size, -1, count) @ inverse.T).reshape(size, first)
-    diagonal[:first] = (diagonal[:first].reshape(-1, count) @ inverse.T).ravel()
-    named = MappingProxyType({s.name: s for s in surfaces})
-    for array in (smooth, diagonal, table):
-        array.setflags(write=False)
-    return Compliance(named, smooth, diagonal, table, body.plane.kernel, 0.0)

@@ -1,8 +1,8 @@
 """Discretisation error of a gear mesh, from two levels of facets per flank (half as many on the coarser).
 
 Forces, transmission error and stiffness converge with nearly the second order of the facet length; half of the
-difference between two levels is reported as the error of the finer one, as everywhere. Numbers at one position may agree
-by chance: each is given no less than the root mean square over all positions.
+difference between two levels is reported as the error of the finer one, as everywhere. Numbers at one position may
+agree by chance: each is given no less than the root mean square over all positions.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ SHARE = 0.5  # of the difference between levels
 
 @dataclass(frozen=True, slots=True)
 class PathError:
-    """Estimated errors (n,) of a path's `error` in m, `stiffness` in N/m, and of the largest `force` in N and `pressure`
-    in Pa of each position.
+    """Estimated errors (n,) of a path's `error` in m and `stiffness` in N/m, and of the largest `force` in N and
+    `pressure` in Pa of each position.
     """
 
     error: Array

@@ -1,9 +1,10 @@
 """Flanks of involute teeth for contact: involute, tip rounding, relief, all in closed form.
 
-Complex numbers are plane vectors. A flank of `hand` h (1: at positive polar angles from its space, −1: mirrored) beside
-space n of a gear with centre c, frame angle θ, base radius r, side σ (−1: ring) has, at the radius of curvature ρ,
+Complex numbers are plane vectors. A flank of `hand` h (1: at positive polar angles from its space, −1: mirrored)
+beside space n of a gear with centre c, frame angle θ, base radius r, side σ (−1: ring) has, at the radius of
+curvature ρ,
 
-    Ψ = θ + 2πn/z + h(β + σρ/r),   foot on the base circle c + r e^{iΨ},   normal −ih e^{iΨ},   point = foot + σρ·normal.
+    Ψ = θ + 2πn/z + h(β + σρ/r),   foot c + r e^{iΨ},   normal −ih e^{iΨ},   point = foot + σρ·normal.
 
 Relief takes material off along the normal; its amounts are micrometres, so that its slope turns the normal by
 thousandths: both are kept to first order. Arc length s = ρ²/(2r) counts from the base circle outwards, along e^{iΨ}:
@@ -28,8 +29,8 @@ LEAST = 1e-4  # of the base radius: the least radius of curvature; at the base c
 class Relief:
     """Material taken off a flank from the radius of curvature `start` on, up to `amount` at `end`, all in m.
 
-    `end` lies towards the tip or towards the root, and the relief goes on beyond it. `bent` is the share of the way over
-    which it bends (1: a parabola); the rest is straight in ρ, that is in the roll angle.
+    `end` lies towards the tip or towards the root, and the relief goes on beyond it. `bent` is the share of the way
+    over which it bends (1: a parabola); the rest is straight in ρ, that is in the roll angle.
     """
 
     start: float
@@ -41,8 +42,8 @@ class Relief:
         """Refuse a relief without length or with a kink, whose contact would have no radius."""
         if self.start == self.end or not 0.0 < self.bent <= 1.0:
             raise Infeasible(
-                f"relief from {1e3 * self.start:g} to {1e3 * self.end:g} mm, bent over a share of {self.bent:g}: both ends "
-                "must differ, and the share must lie above 0 (0.1: nearly straight) and not above 1 (a parabola)"
+                f"relief from {1e3 * self.start:g} to {1e3 * self.end:g} mm, bent over a share of {self.bent:g}: both "
+                "ends must differ, and the share must lie above 0 (0.1: nearly straight) and not above 1 (a parabola)"
             )
 
     def at(self, rho: Array) -> tuple[Array, Array, Array]:
@@ -61,7 +62,8 @@ class Relief:
 class Flank:
     """What contact needs of all flanks of a gear: lengths in m, `angle` β and `pitch` in rad.
 
-    The involute runs from the radius of curvature `start` to `end`; there the rounding begins, with the radius `rounding`.
+    The involute runs from the radius of curvature `start` to `end`; there the rounding begins, with the radius
+    `rounding`.
     """
 
     base_radius: float
@@ -131,7 +133,7 @@ class Posed:
         return Posed(
             flank,
             (center[..., 0] + 1j * center[..., 1])[..., None],
-            angle[..., None] + flank.pitch * number,
+            np.remainder(angle[..., None] + flank.pitch * number + math.pi, 2.0 * math.pi) - math.pi,
             hand,
         )
 

@@ -72,8 +72,8 @@ def mesh_pair(
     """Return the teeth that may touch at the members' nominal poses: centres (n, 2), angles (n,).
 
     `hand` 1: the flanks of the first wheel at positive polar angles from their spaces; pressed, they push it
-    counter-clockwise. A drive with play or floating members has a pair for each hand. `bodies`: numbers in the assembly;
-    `half_width` in m of a typical contact, see `contact_width`. Raises Infeasible.
+    counter-clockwise. A drive with play or floating members has a pair for each hand. `bodies`: numbers in the
+    assembly; `half_width` in m of a typical contact, see `contact_width`. Raises Infeasible.
     """
     pair = flank_pair((wheels[0].flank, wheels[1].flank), members, hand, half_width)
     hands = hand, int(wheels[1].flank.side) * hand
@@ -94,8 +94,8 @@ def flank_pair(
 def mesh_family(name: str, pair: GearPair, wheels: tuple[Wheel, Wheel]) -> Family:
     """Return the contacts with Hertz's law over the common face width.
 
-    The wider wheel's body counts with its own width; both meet at the depth that the load reaches at 45° when it has become
-    as wide as that wheel.
+    The wider wheel's body counts with its own width; both meet at the depth that the load reaches at 45° when it has
+    become as wide as that wheel.
     """
     count, width = len(pair.offset), min(w.width for w in wheels)
     kernel, side = 0.0, 0.0

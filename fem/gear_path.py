@@ -1,7 +1,8 @@
 """One pair of gears under a torque, over base pitches: load sharing, mesh stiffness, loaded transmission error.
 
-The first gear stands at given angles, the torque loads the second; centres are held. The transmission error is what the
-second gear lags behind its conjugate angle, as a length on its base circle: zero for unrelieved flanks without load.
+The first gear stands at given angles, the torque loads the second; centres are held. The transmission error is what
+the second gear lags behind its conjugate angle, as a length on its base circle: zero for unrelieved flanks without
+load.
 """
 
 from __future__ import annotations
@@ -48,9 +49,10 @@ class Mating:
 class Path:
     """A mating at n angles of the first gear, in rad; c contacts at each, in the order of growing ρ of the first.
 
-    `error` (n,): loaded transmission error in m on the line of action, `stiffness` (n,) its tangent dF/dδ in N/m; `force`
-    (n, c) in N and `pressure` (n, c) in Pa; `contact` is the whole solution. `into_fillet` (n,): how far in m a pressed contact lies
-    below the start of an involute, where the model lets it go on: the tip then digs into the fillet.
+    `error` (n,): loaded transmission error in m on the line of action, `stiffness` (n,) its tangent dF/dδ in N/m;
+    `force` (n, c) in N and `pressure` (n, c) in Pa; `contact` is the whole solution. `into_fillet` (n,): how far in m
+    a pressed contact lies below the start of an involute, where the model lets it go on: the tip then digs into the
+    fillet.
     """
 
     angle: Array
@@ -65,7 +67,8 @@ class Path:
     def secant(self) -> Array:
         """Normal force over transmission error (n,), N/m; of flanks without relief, what ISO 6336 calls stiffness."""
         loaded = self.error != 0.0
-        return np.divide(self.force.sum(axis=1), self.error, out=self.stiffness.copy(), where=loaded)
+        force = self.force.sum(axis=1)
+        return np.asarray(np.divide(force, self.error, out=self.stiffness.copy(), where=loaded))
 
 
 def base_pitch(mating: Mating, positions: int) -> Array:
@@ -96,7 +99,8 @@ def solve_path(mating: Mating, angle: Array, resolve: bool = False) -> Path:
 
 
 def _into_fillet(mating: Mating, touch: Touch) -> Array:
-    assert touch.state.place is not None and touch.state.far is not None
+    assert touch.state.place is not None
+    assert touch.state.far is not None
     one, two = (w.flank for w in mating.wheels)
     deep = np.maximum(one.below(touch.state.place), two.below(touch.state.far))
     return np.asarray(np.where(touch.force > 0.0, deep, 0.0).max(axis=1))

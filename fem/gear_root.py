@@ -1,9 +1,10 @@
 """Stress in the fillets of a loaded gear, from a table of unit forces.
 
-A fillet is free of load, so that only the stress along it is not zero: σ = E' du/ds, read from the boundary's own nodes,
-where quadratic elements give the derivative in the middle of a facet one order better than elsewhere. The fine tooth is
-the one that is looked at; forces on it are tabulated at every station, those on its neighbours at three, which is enough
-for what comes through the rim. Stresses are of unit force per unit width; forces and width are put in afterwards.
+A fillet is free of load, so that only the stress along it is not zero: σ = E' du/ds, read from the boundary's own
+nodes, where quadratic elements give the derivative in the middle of a facet one order better than elsewhere. The fine
+tooth is the one that is looked at; forces on it are tabulated at every station, those on its neighbours at three,
+which is enough for what comes through the rim. Stresses are of unit force per unit width; forces and width are put in
+afterwards.
 """
 
 from __future__ import annotations
@@ -31,9 +32,9 @@ _COARSE = 3.0  # facets of a coarse tooth in the patch round a force on it
 class RootTable:
     """Stress along both fillets of a tooth under unit line loads on flanks at positive polar angles.
 
-    `parameters` (k,) of the places on the gear's boundary, from the flank's own space across to the next; `own` (n, k)
-    spline coefficients along the tooth's flank and `beside` (2m, 3, k) at three arc lengths `marks` (3,) on the teeth −m …
-    m but itself, all in Pa per N/m.
+    `parameters` (k,) of the places on the gear's boundary, from the flank's own space across to the next; `own` (n,
+    k) spline coefficients along the tooth's flank and `beside` (2m, 3, k) at three arc lengths `marks` (3,) on the
+    teeth −m … m but itself, all in Pa per N/m.
     """
 
     gear: GearBody
@@ -45,7 +46,7 @@ class RootTable:
 
 @dataclass(frozen=True, slots=True)
 class Loaded:
-    """Forces on flanks of one hand of a gear at n positions: spaces (n, c), arc length on the flank in m, force in N."""
+    """Forces on flanks of one hand of a gear at n positions: spaces (n, c), arc length there in m, force in N."""
 
     number: IntArray
     hand: int
@@ -164,4 +165,4 @@ def _stress(body: Body, loads: Sequence[PointForce], facets: IntArray, radii: Se
         offset = body.mesh.points[ends[inside]] - load.point
         at[inside] += flamant.displacement(body.plane, offset, load.inward, load.force)
         result[k] = np.einsum("fi,fi->f", at[1] - at[0], along)
-    return body.plane.modulus * result / np.einsum("fi,fi->f", along, along)
+    return np.asarray(body.plane.modulus * result / np.einsum("fi,fi->f", along, along))

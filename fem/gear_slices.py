@@ -1,9 +1,9 @@
 """Load over the face width: slices of the plane model, for misaligned and crowned flanks.
 
-Each slice is a plane gear pair of its own, with its own bending, its own contact and its own gap. What couples them is
-the rigid rotation of both gears only: the hub is stiff, and teeth and rim do not pass load from slice to slice by shear.
-Real teeth do, over about a tooth's height; so the model gives too much to the end that touches first, and no overhang at
-unloaded ends. Plane strain suits faces that are wider than teeth are high.
+Each slice is a plane gear pair of its own, with its own bending, its own contact and its own gap. What couples them
+is the rigid rotation of both gears only: the hub is stiff, and teeth and rim do not pass load from slice to slice by
+shear. Real teeth do, over about a tooth's height; so the model gives too much to the end that touches first, and no
+overhang at unloaded ends. Plane strain suits faces that are wider than teeth are high.
 """
 
 from __future__ import annotations

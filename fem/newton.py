@@ -120,7 +120,7 @@ def stable(stiffness: Array, least: float) -> BoolArray:
 
 def rounding(point: Point, problem: lcp.Problem) -> tuple[Array, Array]:
     """Return what rounding of the coordinates leaves uncertain in a gap (n,) in m and in a force (n,) in N."""
-    size = np.max([np.abs(s.point).max(axis=(1, 2), initial=0.0) for s in point.states], axis=0)
+    size = np.max([np.abs(s.point).max(axis=(1, 2), initial=s.size) for s in point.states], axis=0)
     least = np.min([g.diagonal.min(axis=(1, 2), initial=np.inf) for g in problem.groups], axis=0)
     return ROUNDING * size, ROUNDING * size / least
 

@@ -85,7 +85,7 @@ class State:
     first member) in the fixed frame, `parameter` (n, c) on the curve, `radius` (n, c) combined radius of
     curvature and `place` (n, c) arc length on the seat (None: rigid), both in m; `far` (n, c) that on the second
     member's seat. `edge` (n, c, 2) where surfaces end: how far inside the edge the contact lies, negative beyond it,
-    and the rounding of the edge, in m.
+    and the rounding of the edge, in m. Gaps are known to rounding of the coordinates of `point`, or of `size` (m).
     """
 
     gap: Array
@@ -97,6 +97,7 @@ class State:
     place: Array | None
     far: Array | None = None
     edge: Array | None = None
+    size: float = 0.0
 
 
 class Pair(Protocol):

@@ -11,6 +11,8 @@ from trochoid.fem.equalities import Step
 from trochoid.fem.problem import Problem
 from trochoid.kinematics.types import Array
 
+NOTHING = 1e-12  # of the stiffness that a contact gives a motion
+
 
 @dataclass(frozen=True, slots=True)
 class Scale:
@@ -51,7 +53,7 @@ def scales(problem: Problem) -> tuple[Scale, Array]:
     own = np.concatenate([g.diagonal.reshape(count, -1) for g in problem.groups], axis=1)
     arms = np.stack([np.abs(g.arms).max(axis=(1, 2), initial=0.0) for g in problem.groups]).max(axis=0)
     typical = _median(own)
-    lever = _levers(arms, np.einsum("nkk->nk", problem.springs))
+    lever = _levers(arms, np.einsum("nkk->nk", problem.springs), typical)
     unit = 1.0 / np.where(lever > 0, lever, 1.0)
     gaps = np.concatenate([g.gap.reshape(count, -1) for g in problem.groups], axis=1)
     finite = np.isfinite(gaps)
@@ -82,9 +84,12 @@ def _median(own: Array) -> Array:
     return np.array([np.median(row[row > 0]) if np.any(row > 0) else 1.0 for row in own])
 
 
-def _levers(arms: Array, springs: Array) -> Array:
-    """Return each motion's largest arm (n, k); where contacts have none, what its spring suggests beside others."""
-    held = (springs > 0) & (arms > 0)
+def _levers(arms: Array, springs: Array, typical: Array) -> Array:
+    """Return each motion's largest arm (n, k); where contacts have none, what its spring suggests beside others.
+
+    A spring that is nothing beside contacts of the compliance `typical` (n,) is rounding, and suggests nothing.
+    """
+    held = (springs > NOTHING * arms**2 / typical[:, None]) & (arms > 0)
     if not held.any():
         return arms
     square = np.divide(arms**2, springs, out=np.full_like(arms, np.nan), where=held)

@@ -27,6 +27,7 @@ _STEEP = 1.0  # growth of facets along flanks that are not pressed
 _BESIDE, _ROUGH = 2, 4  # how much coarser the neighbours and all other teeth are
 _TURNED = 0.4  # facets per radian that a fillet turns, times the level
 _TURN = 0.58  # rad that a facet of any fillet turns at the most, or elements fold
+_FEWEST = 12  # facets on the rim's edge
 _LEAST_RIM = 0.05  # of the module: a thinner rim has no room for elements
 
 
@@ -76,8 +77,8 @@ def gear_outline(blank: Blank, level: int = LEVEL, rim_facets: int | None = None
         breaks.append(tooth + one[one > 0.0])  # one facet on the root between two coarse teeth
     teeth = Loop("teeth", curve, breaks=np.append(np.concatenate(breaks), float(z)))
     ring = blank.tooth.gear.internal
-    count = z * max(1, round((rim_facets or default_rim_facets(blank)) * level / LEVEL))
-    rim = Loop("rim", Circle((0.0, 0.0), blank.rim_radius, hole=not ring), max(count, 12))
+    count = max(math.ceil(_FEWEST / z), round((rim_facets or default_rim_facets(blank)) * level / LEVEL))
+    rim = Loop("rim", Circle((0.0, 0.0), blank.rim_radius, hole=not ring), z * count)
     return Outline(rim, (teeth,)) if ring else Outline(teeth, (rim,))
 
 

@@ -1,8 +1,8 @@
 """The tooth of an involute gear with a rounded tip edge, in closed form; external teeth and those of a ring.
 
 Half a tooth is, from the middle of a space: root circle, fillet, involute, rounding, tip circle. The rounding touches
-involute and tip circle. Where the land is too narrow for two of them (a pointed tooth), it touches both flanks and ends
-the tooth below the tip circle.
+involute and tip circle. Where the land is too narrow for two of them (a pointed tooth), it touches both flanks and
+ends the tooth below the tip circle.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ class Tooth:
             GearCurve(self.cut, self.tip_radius)
         if not self.gear.side * (self.end - self.cut.start) > 0.0:
             raise Infeasible(
-                f"tip rounding {1e3 * self.rounding:g} mm leaves no involute: it would end before the involute begins, at a "
-                f"radius of curvature of {1e3 * self.cut.start:.6g} mm; take a smaller rounding"
+                f"tip rounding {1e3 * self.rounding:g} mm leaves no involute: it would end before the involute begins, "
+                f"at a radius of curvature of {1e3 * self.cut.start:.6g} mm; take a smaller rounding"
             )
 
     @property

@@ -35,7 +35,12 @@ def teeth_20_30() -> tuple[Tooth, Tooth, Pair]:
 
 @lru_cache(maxsize=32)
 def body(
-    tooth: Tooth, rim: float, level: int, state: PlaneState = "strain", modulus: float = 210e9, held: bool = True
+    tooth: Tooth,
+    rim: float,
+    level: int,
+    state: PlaneState = "strain",
+    modulus: float = 210e9,
+    held: bool = True,
 ) -> GearBody:
     """Return a pressed steel gear."""
     return press_gear(Blank(tooth, rim), Material(modulus, 0.3).plane(state), level, held)

@@ -91,7 +91,7 @@ def test_coarse_teeth_carry_over_what_fine_ones_would() -> None:
 
 @pytest.mark.independent
 def test_rim_edge_is_tabulated_like_flanks() -> None:
-    """Independent: a bore pressed by two opposite unit forces opens across as a ring does; table symmetric, free body."""
+    """Independent: even pressure widens a bore as Lamé's ring between the root's and the tip's; symmetric table."""
     gear = press_gear(Blank(external(20), 10e-3), STEEL, 6, held=False, rim=2)
     table, rim = gear.compliance.stations, gear.compliance.surfaces["rim"]
     assert np.abs(table - table.T).max() < 1e-15 * np.abs(table).max() + 1e-30
@@ -112,5 +112,3 @@ def test_rim_edge_is_tabulated_like_flanks() -> None:
         inner / STEEL.modulus * ((o**2 + inner**2) / (o**2 - inner**2) + 0.3 / 0.7) for o in (root, top)
     ]
     assert expansions[1] < moved.mean() < expansions[0]
-
-

@@ -44,7 +44,7 @@ def _pair(kind: str, hand: int, angle: float) -> GearPair:
 @given(KINDS, hands, angles)
 @settings(max_examples=8, deadline=None)
 def test_conjugate_flanks_touch_all_along_the_path(kind: str, hand: int, angle: float) -> None:
-    """Exact: unrelieved involutes have no gap where ρ1 + s ρ2 spans the line of action; relief opens it by its amount."""
+    """Exact: unrelieved involutes have no gap where ρ1 + s ρ2 spans the line of action; relief opens it."""
     pair = _pair(kind, hand, angle)
     state = pair.at(np.zeros((1, 6)))
     assert state.edge is not None
@@ -68,7 +68,8 @@ def test_gap_is_the_least_distance_of_the_two_boundaries(
     """Independent: points of the first boundary, and their feet on the second found by Newton on the curve."""
     pair = rigid_pair(teeth, hand, np.array([angle]))
     state, curves = pair.at(motion[None]), [GearBoundary(t).plain for t in teeth]
-    assert state.edge is not None and state.edge.shape[0] == 1
+    assert state.edge is not None
+    assert state.edge.shape[0] == 1
     (center, turn), (other, other_turn) = pair.first.displaced(motion), pair.second.displaced(motion)
     for c in np.flatnonzero(state.edge[0, :, 0] > 0.2e-3):
         starts = []
@@ -77,7 +78,7 @@ def test_gap_is_the_least_distance_of_the_two_boundaries(
             z = curve.cut.gear.teeth
             near = z * np.arctan2(local[1], local[0]) / (2 * np.pi) + np.linspace(-0.6, 0.6, 2001)
             starts.append(near[np.linalg.norm(curve.point(near) - local, axis=1).argmin()])
-        t = starts[0] + np.linspace(-0.02, 0.02, 401)
+        t = starts[0] + np.linspace(-0.01, 0.01, 401)
         points = curves[0].point(t) @ rotation(np.ravel(turn)[0]).T + center
         local = (points - other) @ rotation(np.ravel(other_turn)[0])
         _, distance = foot_point(curves[1], local, np.full(len(t), starts[1]))
@@ -126,7 +127,9 @@ def test_arms_are_the_gaps_derivatives(kind: str, hand: int, angle: float, motio
         axis=-1,
     )
     away = np.abs(state.edge[0, :, 0]) > 1e-5  # from where flank and edge change over
-    if "relieved" in kind:  # relief is counted at the foot: where flanks are far apart its slope is not that of the gap
+    if (
+        "relieved" in kind
+    ):  # relief is counted at the foot: where flanks are far apart its slope is not that of the gap
         away &= state.gap[0] < 0.1e-3
     tolerance = 2e-4 if "relieved" in kind else 1e-7
     np.testing.assert_allclose(-slopes[away], state.arms[0][away], atol=tolerance)
@@ -143,7 +146,9 @@ def test_turning_is_the_derivative_of_the_arms(kind: str, hand: int, angle: floa
     force = np.where(np.abs(state.edge[..., 0]) > 2e-5, 1000.0, 0.0)
     found = pair.turning(state, motion[None], force)[0]
     rows = [
-        np.einsum("c,ck->k", force[0], (pair.at((motion + d)[None]).arms - pair.at((motion - d)[None]).arms)[0])
+        np.einsum(
+            "c,ck->k", force[0], (pair.at((motion + d)[None]).arms - pair.at((motion - d)[None]).arms)[0]
+        )
         / (2 * step)
         for d in step * np.eye(6)
     ]

@@ -10,7 +10,13 @@ from hypothesis import assume, given, settings
 
 from tests.kinematics.sphere_cases import EXAMPLES, teeth, tooth
 from trochoid.geometry.sphere_mesh import jacobians, mesh_sphere, sphere_quality
-from trochoid.geometry.sphere_outline import RimShape, SphereOutline, roller_outline, sector_outline
+from trochoid.geometry.sphere_outline import (
+    RimShape,
+    SphereOutline,
+    beyond_edge,
+    roller_outline,
+    sector_outline,
+)
 from trochoid.geometry.sphere_refined import Focus, refined_breaks
 from trochoid.kinematics.curve import ArcLength
 from trochoid.kinematics.errors import Infeasible
@@ -68,6 +74,27 @@ def test_any_tooth_that_can_be_made_is_meshed_well(flank: SphereTooth) -> None:
     quality = sphere_quality(mesh_sphere(sector_outline(shape, 32)))
     assert quality.min_angle > math.radians(12.0)
     assert quality.min_scaled_jacobian > 0.1
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("flank", EXAMPLES[:4])
+def test_cut_crests(flank: SphereTooth) -> None:
+    """Facets up to the edges lie on the flank, those between on the cone of the tips; edges are mirror images."""
+    whole = rim(flank)
+    low, high = whole.reach
+    shape = RimShape(flank, whole.hub, low + 0.2 * (high - low) if flank.hole else high - 0.2 * (high - low))
+    assert shape.tip is not None
+    assert shape.edges is not None
+    assert np.arccos(flank.point(np.array(shape.edges))[:, 2]) == pytest.approx(shape.tip, abs=1e-12)
+    mesh = mesh_sphere(sector_outline(shape, 20, teeth=2))
+    node, p = mesh.points[mesh.edges["flank"]], mesh.parameters["flank"]
+    off = beyond_edge(shape, p)
+    assert off.any(axis=1).all()
+    assert np.abs(node - flank.point(p))[~off].max() < 1e-14
+    assert np.arccos(node[off][:, 2]) == pytest.approx(shape.tip, abs=1e-12)
+    assert sphere_quality(mesh).min_angle > math.radians(15.0)
+    with pytest.raises(Infeasible, match="cut between these"):
+        RimShape(flank, whole.hub, high + 0.01)
 
 
 @pytest.mark.exact
