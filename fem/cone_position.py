@@ -86,7 +86,7 @@ class ConeContact:
     def edge(self) -> BoolArray:
         """Say where (n, C) the true pressure at an edge has no bound, and the one given is too low.
 
-        So it is where an end of a roller presses (a crowned one does not), and where the edge of a cut crest is pressed.
+        So it is where an end of a roller presses (a crowned one does not), and at the pressed edge of a cut crest.
         """
         ends = (self.force[..., 0] > 0.0) | (self.force[..., -1] > 0.0)
         return np.asarray(ends | (self.state.off & (self.total > 0.0)))

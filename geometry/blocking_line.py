@@ -155,14 +155,3 @@ def _worth(set_: Planetary, aim: Aim, merit: float) -> float:
     if aim != "sliding":
         return merit
     return float(min(set_.outer.sliding(*set_.tips[:2])))
-
-
-def nearest_feasible(given: PlanetarySet, limits: Limits | None = None) -> tuple[float, float, float] | None:
-    """Shifts on the coaxiality line nearest to the set's x1; None when the line has no feasible stretch."""
-    line = coaxial_line(given, limits=limits)
-    x1 = given.shifts[0]
-    near = [min(max(x1, s.low), s.high) for s in line.stretches]
-    if not near:
-        return None
-    a, b, c = line.shifts(min(near, key=lambda x: abs(x - x1)))
-    return float(a), float(b), float(c)

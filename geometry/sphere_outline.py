@@ -17,10 +17,10 @@ from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.sphere_tooth import SphereTooth
 from trochoid.kinematics.spherical import rotation
 from trochoid.kinematics.spherical_curve import SmallCircle, SphericalCurve
-from trochoid.kinematics.types import Array
-
+from trochoid.kinematics.types import Array, BoolArray
 
 BENT = 0.6  # of the facets' density on a flank: curvature
+EDGE = 0.3  # of the facets' length: the last one at an edge
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -44,25 +44,23 @@ class Side:
 class SphereOutline:
     """Closed loops of sides, counter-clockwise seen from outside (holes too), the outer one first.
 
-    `frame` (3, 3) turns the body's vectors so that it lies round the equator's longitude 0; `latitude` (rad) is
-    where the chart longitude·cos(latitude), latitude is true to scale.
+    `frame` (3, 3) turns the body's vectors so that it lies round longitude 0.  The chart is Mercator's, which keeps
+    angles, so that elements are as good on the sphere as on the chart.
     """
 
     loops: tuple[tuple[Side, ...], ...]
     frame: Array
-    latitude: float
 
     def to_chart(self, vectors: Array) -> Array:
-        """Return chart coordinates (..., 2), rad, of unit vectors (..., 3)."""
-        v = vectors @ self.frame.T
-        longitude, latitude = np.arctan2(v[..., 1], v[..., 0]), np.arcsin(np.clip(v[..., 2], -1.0, 1.0))
-        return np.stack([longitude * math.cos(self.latitude), latitude], axis=-1)
+        """Return longitude and −ln tan(polar angle/2) (..., 2) of unit vectors (..., 3)."""
+        x, y, z = np.moveaxis(vectors @ self.frame.T, -1, 0)
+        return np.stack([np.arctan2(y, x), -np.log(np.hypot(x, y) / (1.0 + z))], axis=-1)
 
     def from_chart(self, places: Array) -> Array:
         """Return unit vectors (..., 3) of chart coordinates (..., 2)."""
-        longitude, latitude = places[..., 0] / math.cos(self.latitude), places[..., 1]
-        c = np.cos(latitude)
-        v = np.stack([c * np.cos(longitude), c * np.sin(longitude), np.sin(latitude)], axis=-1)
+        longitude, height = places[..., 0], places[..., 1]
+        c = 1.0 / np.cosh(height)
+        v = np.stack([c * np.cos(longitude), c * np.sin(longitude), np.tanh(height)], axis=-1)
         return np.asarray(v @ self.frame)
 
 
@@ -71,10 +69,12 @@ class RimShape:
     """A rim of sphere teeth on a hub: the body between the flank and the cone at the polar angle `hub` (rad).
 
     The hub lies on the material's side: nearer to the pole than the flank, or farther where the flank is a hole.
+    `tip` is the polar angle at which the teeth are cut, None for whole crests.
     """
 
     tooth: SphereTooth
     hub: float
+    tip: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse a hub that cuts the tooth spaces."""
@@ -89,6 +89,25 @@ class RimShape:
                 f"hub at polar angle {math.degrees(self.hub):.6g}°: the tooth spaces reach down to "
                 f"{math.degrees(low):.6g}°; take less than that, and more than 0°"
             )
+
+        if self.tip is not None and not low < self.tip < high:
+            raise Infeasible(
+                f"teeth cut at polar angle {math.degrees(self.tip):.6g}°: the flank reaches from "
+                f"{math.degrees(low):.6g}° to {math.degrees(high):.6g}°; cut between these, or not at all"
+            )
+
+    @property
+    def edges(self) -> tuple[float, float] | None:
+        """Flank parameters between which the crest of tooth 0 is cut away."""
+        if self.tip is None:
+            return None
+        low, high = self.start, self.start + 0.5 * self.pitch
+        rising = not self.tooth.hole
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            polar = float(np.arccos(self.tooth.point(np.array(middle))[2]))
+            low, high = (middle, high) if (polar < self.tip) == rising else (low, middle)
+        return low, 2.0 * self.start + self.pitch - low
 
     @property
     def reach(self) -> tuple[float, float]:
@@ -116,32 +135,77 @@ def sector_outline(shape: RimShape, facets: int, teeth: int = 1, growth: float =
     """
     if facets < 6:
         raise Infeasible(f"{facets} facets on a tooth; take at least 6, better 16")
-    tooth, z = shape.tooth, shape.tooth.lobes
+    z = shape.tooth.lobes
     if not 1 <= teeth < z:
         raise Infeasible(f"a sector of {teeth} of {z} teeth; take 1 to {z - 1}")
-    lobe = bent_breaks(tooth, shape.start, shape.start + shape.pitch, facets)
+    lobe = _lobe_breaks(shape, facets)
     breaks = np.concatenate([lobe[:-1] + i * shape.pitch for i in range(teeth)])
     return outline_of_breaks(shape, np.append(breaks, shape.start + teeth * shape.pitch), growth)
+
+
+def _lobe_breaks(shape: RimShape, facets: int) -> Array:
+    """Return the facets' ends (k+1,) from bottom to bottom; where the crest is cut, finer towards its edges."""
+    first, last = shape.start, shape.start + shape.pitch
+    if shape.edges is None:
+        return bent_breaks(shape.tooth, first, last, facets)
+    one, other = shape.edges
+    up = bent_breaks(shape.tooth, first, one, max(4, facets // 2), edge=EDGE)
+    ends = shape.tooth.point(np.array([one, other]))
+    land = float(np.linalg.norm(ends[1] - ends[0]))
+    size = float(np.linalg.norm(np.diff(shape.tooth.point(up[-2:]), axis=0)))
+    across = np.linspace(one, other, max(2, round(land / (2.0 * size))) + 1)
+    return np.concatenate([up, across[1:-1], (first + last - up)[::-1]])
 
 
 def outline_of_breaks(shape: RimShape, breaks: Array, growth: float = 1.3) -> SphereOutline:
     """Return a sector whose flank facets end at the parameters `breaks` (k+1,), from bottom to bottom."""
     tooth = shape.tooth
     first, last = float(breaks[0]), float(breaks[-1])
-    flank = curve_side("flank", tooth, breaks)
+    flank = _cut_side(shape, breaks)
     finest = float(np.linalg.norm(flank.ends[1] - flank.ends[0]))
     bottom = float(np.arccos(flank.ends[0, 2]))
-    polar = _graded(bottom, shape.hub, finest, growth - 1.0)
-    coarse = abs(float(polar[-1] - polar[-2]))
-    count = max(2, round((last - first) * math.sin(shape.hub) / coarse))
+    heights = [-math.log(math.tan(0.5 * polar)) for polar in (bottom, shape.hub)]
+    cut = _graded(heights[0], heights[1], finest / math.sin(bottom), growth - 1.0, 0.5 * (last - first))
+    polar = 2.0 * np.arctan(np.exp(-cut))
+    count = max(2, round((last - first) / abs(float(cut[-1] - cut[-2]))))
     azimuth = np.linspace(first, last, count + 1)
     right, left = (_arc("right", polar, last), _arc("left", polar, first))
     hub = _arc("hub", shape.hub, azimuth)
     sides = (flank, right, hub.reversed(), left.reversed())
     if tooth.hole:
         sides = (flank.reversed(), left, hub, right.reversed())
-    frame = rotation(2, -0.5 * (first + last))
-    return SphereOutline((sides,), frame, 0.5 * math.pi - 0.5 * (bottom + shape.hub))
+    return SphereOutline((sides,), rotation(2, -0.5 * (first + last)))
+
+
+def _cut_side(shape: RimShape, breaks: Array) -> Side:
+    """Return the flank's facets, those on cut crests moved to the cone of the tips."""
+    side = curve_side("flank", shape.tooth, breaks)
+    if shape.edges is None or shape.tip is None:
+        return side
+    ends, middles = side.ends.copy(), side.middles.copy()
+    for points, p in ((ends, breaks), (middles, side.parameters[2])):
+        off = beyond_edge(shape, p)
+        turn = np.floor((p[off] - shape.start) / shape.pitch)
+        low, high = (shape.tooth.point(edge + turn * shape.pitch) for edge in shape.edges)
+        share = (p[off] - turn * shape.pitch - shape.edges[0]) / (shape.edges[1] - shape.edges[0])
+        start = np.arctan2(low[:, 1], low[:, 0])
+        wide = np.mod(np.arctan2(high[:, 1], high[:, 0]) - start, 2.0 * math.pi)
+        azimuth, s = start + share * wide, math.sin(shape.tip)
+        points[off] = np.stack(
+            [s * np.cos(azimuth), s * np.sin(azimuth), math.cos(shape.tip) + 0.0 * azimuth], axis=-1
+        )
+    return Side("flank", ends, middles, side.parameters)
+
+
+def beyond_edge(shape: RimShape, parameter: npt.ArrayLike) -> BoolArray:
+    """Say which flank parameters (…) lie on a crest that is cut away, its edges not counted."""
+    p = np.asarray(parameter, dtype=np.float64)
+    if shape.edges is None:
+        return np.zeros(p.shape, dtype=bool)
+    along = np.mod(p - shape.start, shape.pitch)
+    low, high = (edge - shape.start for edge in shape.edges)
+    rounding = 1e-9 * shape.pitch
+    return np.asarray((along > low + rounding) & (along < high - rounding))
 
 
 def roller_outline(angle: float, facets: int, bore: float = 0.0) -> SphereOutline:
@@ -161,13 +225,16 @@ def roller_outline(angle: float, facets: int, bore: float = 0.0) -> SphereOutlin
         count = max(12, round(facets * bore / angle))
         round_ = 2.0 * math.pi * np.arange(count + 1) / count
         loops = (*loops, (curve_side("hub", SmallCircle(axis, bore), round_),))
-    return SphereOutline(loops, np.eye(3), 0.0)
+    return SphereOutline(loops, np.eye(3))
 
 
-def bent_breaks(curve: SphericalCurve, first: float, last: float, facets: int, share: float = BENT) -> Array:
+def bent_breaks(
+    curve: SphericalCurve, first: float, last: float, facets: int, share: float = BENT, edge: float = 1.0
+) -> Array:
     """Return parameters (facets+1,) of facets, shorter where the curve bends: `share` of their density is curvature.
 
-    The rest is arc length; the curvature counts from its mean on, so that the density is smooth.
+    The rest is arc length; the curvature counts from its mean on, so that the density is smooth.  The last facet is
+    `edge` times as long as it would be, those before it grow by half of the distance from it.
     """
     t = np.linspace(first, last, 2001)
     speed, bend = curve.speed(t), np.abs(curve.curvature(t))
@@ -175,6 +242,10 @@ def bent_breaks(curve: SphericalCurve, first: float, last: float, facets: int, s
     density = speed * (
         (1.0 - share) / speed.sum() + share * np.hypot(bend, mean) / (speed * np.hypot(bend, mean)).sum()
     )
+    if edge < 1.0:
+        way = np.concatenate([np.cumsum(speed[::-1])[::-1][1:], [0.0]]) * (t[1] - t[0])
+        plain = float(way[0]) / facets
+        density = density * np.maximum(1.0, plain / (edge * plain + 0.5 * way))
     total = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]))])
     breaks: Array = np.interp(np.arange(facets + 1) / facets * total[-1], total, t)
     return breaks
@@ -204,10 +275,14 @@ def _arc(name: str, polar: npt.ArrayLike, azimuth: npt.ArrayLike) -> Side:
     return Side(name, place(*both), place(*half), np.stack([way[:-1], way[1:], middle]))
 
 
-def _graded(first: float, last: float, finest: float, slope: float) -> Array:
-    """Return angles from `first` to `last` whose steps begin with `finest` and grow by `slope` times the distance."""
+def _graded(first: float, last: float, finest: float, slope: float, coarsest: float) -> Array:
+    """Return places from `first` to `last` whose steps begin with `finest` and grow by `slope` times the distance."""
     length = abs(last - first)
-    count = max(2, round(math.log1p(slope * length / finest) / slope))
-    away = finest / slope * np.expm1(slope * np.arange(count + 1))
-    graded: Array = first + math.copysign(length, last - first) * away / away[-1]
+    away = np.linspace(0.0, length, 2001)
+    step = np.minimum(finest + slope * away, max(finest, coarsest))
+    number = np.concatenate([[0.0], np.cumsum(0.5 * (1.0 / step[1:] + 1.0 / step[:-1]) * np.diff(away))])
+    count = max(2, round(float(number[-1])))
+    breaks = np.interp(np.arange(count + 1) / count * number[-1], number, away)
+    graded: Array = first + math.copysign(1.0, last - first) * breaks
+    graded[-1] = last
     return graded

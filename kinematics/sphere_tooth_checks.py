@@ -9,6 +9,8 @@ from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.sphere_tooth import SphereTooth
 from trochoid.kinematics.sphere_tooth_clearance import clear_pin_angle
 
+AT_CUSPS = 1e-7  # of the nutation with cusps: nearer to it, curvature is a quotient of rounding errors
+
 
 def largest_nutation(tooth: SphereTooth) -> float:
     """Nutation (rad) at which the pins reach the instantaneous axis, where their path gets cusps and then loops.
@@ -19,6 +21,33 @@ def largest_nutation(tooth: SphereTooth) -> float:
     alpha = tooth.polar_angle
     other = math.sin(alpha) * tooth.lobes / tooth.pins
     return min(abs(alpha - math.asin(other)), alpha) if other < 1.0 else alpha
+
+
+def nutation_limit(tooth: SphereTooth, steps: int = 24) -> float:
+    """Nutation (rad) up to which a tooth that can be made still can with its pin: undercut, or cusps of the path.
+
+    Undercut is looked for at `steps` nutations from the tooth's own to the cusps, the first is then bisected.
+    """
+    low, most = tooth.nutation, largest_nutation(tooth)
+    for step in range(1, steps):
+        high = tooth.nutation + (most - tooth.nutation) * step / steps
+        if not _clears(tooth, high):
+            return _bisected(tooth, low, high)
+        low = high
+    high = (1.0 - 10.0 * AT_CUSPS) * most
+    return most if high <= low or _clears(tooth, high) else _bisected(tooth, low, high)
+
+
+def _clears(tooth: SphereTooth, nutation: float) -> bool:
+    return clear_pin_angle(replace(tooth, nutation=nutation)) > tooth.pin_angle
+
+
+def _bisected(tooth: SphereTooth, low: float, high: float) -> float:
+    """Largest nutation (rad) between one that leaves the flank uncut and one that does not."""
+    while high - low > 1e-7 * high:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _clears(tooth, middle) else (low, middle)
+    return low
 
 
 def overlap_angle(tooth: SphereTooth) -> float:
@@ -57,7 +86,7 @@ def _fail_if_no_pair(tooth: SphereTooth) -> tuple[str, ...]:
 
 def _fail_if_looped(tooth: SphereTooth) -> tuple[str, ...]:
     limit = largest_nutation(tooth)
-    if tooth.nutation < limit:
+    if tooth.nutation < (1.0 - AT_CUSPS) * limit:
         return ()
     return (
         f"nutation = {_degrees(tooth.nutation)}: out of range, the path of the pins has cusps, then loops; "
@@ -85,14 +114,8 @@ def _fail_if_undercut(tooth: SphereTooth) -> tuple[str, ...]:
 
 def _nutation_without_undercut(tooth: SphereTooth) -> float:
     """Largest nutation (rad) for which this pin does not cut the flank; 0 when none is found."""
-    low, high = 1e-6 * tooth.nutation, tooth.nutation
-    if clear_pin_angle(replace(tooth, nutation=low)) <= tooth.pin_angle:
-        return 0.0
-    while high - low > 1e-7 * tooth.nutation:
-        middle = 0.5 * (low + high)
-        fits = clear_pin_angle(replace(tooth, nutation=middle)) > tooth.pin_angle
-        low, high = (middle, high) if fits else (low, middle)
-    return low
+    low = 1e-6 * tooth.nutation
+    return _bisected(tooth, low, tooth.nutation) if _clears(tooth, low) else 0.0
 
 
 def _fail_if_pins_overlap(tooth: SphereTooth) -> tuple[str, ...]:

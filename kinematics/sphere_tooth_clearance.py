@@ -94,7 +94,7 @@ def penetration(tooth: SphereTooth, samples: int = 128, path_samples: int = 48) 
     q = 2.0 * math.pi * np.arange(count) / count
     near = flank @ tooth.center_path(q).T
     peak = (near >= np.roll(near, 1, axis=1)) & (near >= np.roll(near, -1, axis=1))
-    row, column = np.nonzero(peak & (near > near.max(axis=1, keepdims=True) - 1e-2 * tooth.pin_angle))
+    row, column = np.nonzero(peak & (near >= near.max(axis=1, keepdims=True) - 1e-2 * tooth.pin_angle))
     low, high = q[column] - q[1], q[column] + q[1]
     closest = _least_angle(tooth, flank[row], low, high)
     return float(np.max(tooth.pin_angle - closest))

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.drives.planetary_cases import stages_of as small_stages
 from trochoid.clock import Clock
 from trochoid.drives.planetary.dataset import dataset
 from trochoid.drives.planetary.mesh_phase import period, places
@@ -251,6 +252,23 @@ def test_mean_number_of_pairs_is_the_contact_ratio(forward: bool) -> None:
 
 
 @pytest.mark.independent
+def test_phase_steps_are_those_of_the_paths() -> None:
+    """19/17/53 with three planets: where pairs stand on their paths in one mesh, and in the next planet's."""
+    stages = small_stages(effects=(), phased=True)
+    found = values(Run(stages.scene).quantity("contact_ratio"))
+    made = stages.feasible
+    pitch = math.pi * 2e-3 * math.cos(math.radians(20))
+    angle = np.array([0.0123])
+    both = places(made.given, made.geometry, 0.2 * angle, 0.0 * angle)
+    for place, name in zip(both, ("sun_planet", "planet_ring"), strict=True):
+        step = found[name]["phase_step"]
+        assert step == pytest.approx(2.0 / 3.0)
+        for planet in (1, 2):
+            ahead = (place.rho[0, planet, 0] - place.rho[0, 0, 0]) / pitch - planet * step
+            assert ahead == pytest.approx(round(ahead), abs=1e-9)
+
+
+@pytest.mark.independent
 def test_contacts_lie_on_both_flanks() -> None:
     """The contact points of the sun's mesh, as points of the sun's and of the planet's exact curve, coincide."""
     stages = stages_of("drive.x_planet=0.6335961427", "drive.x_ring=1.7671922854")
@@ -299,7 +317,7 @@ def test_masses_by_polygons() -> None:
 @pytest.mark.property
 def test_dataset_is_labelled_and_its_ends_are_the_answers() -> None:
     stages = stages_of()
-    found = dataset(stages)
+    found = dataset(stages, ("profiles",))
     for variable in found.variables.values():
         assert variable.attrs["long_name"]
         assert "units" in variable.attrs
@@ -319,7 +337,7 @@ def test_dataset_is_labelled_and_its_ends_are_the_answers() -> None:
 def test_blocking_pictures_name_what_bounds() -> None:
     """Each condition that binds is a curve of its plane, each face of the body too; the line lies in all three."""
     stages = stages_of()
-    planes = plots(stages)
+    planes = plots(stages, ("blocking",))
     assert [len(plot.axes) for plot in planes] == [2, 2, 3]
     for plot, contour in zip(planes, (stages.blocking.outer, stages.blocking.inner), strict=False):
         names = {curve.name for curve in plot.curves}
@@ -350,8 +368,9 @@ def test_only_what_is_asked_for_runs() -> None:
 @pytest.mark.property
 def test_inertia_adds_what_the_orbit_throws_out() -> None:
     """m ω² a on each planet's bearing with the effect, nothing without it."""
-    still = answers("bearing_loads", overrides=("effects=[]",))["bearing_loads"]
-    moving = answers("bearing_loads")["bearing_loads"]
+    asked = 'ask.quantities=["bearing_loads"]'
+    still = answers("bearing_loads", overrides=(asked, "effects=[]"))["bearing_loads"]
+    moving = answers("bearing_loads", overrides=(asked, 'effects=[{type="inertia"}]'))["bearing_loads"]
     assert still["radial"] == pytest.approx(0.0, abs=1e-9)
     mass = answers("mass")["mass"]["planet"]["mass"]
     assert moving["radial"] == pytest.approx(mass * (300 * math.pi / 30) ** 2 * 52e-3, rel=1e-12)

@@ -138,7 +138,7 @@ def test_teeth_of_the_drawing_do_not_cut_into_each_other(cranks: int) -> None:
         ("drive.cycloid.bore_radius=20", "break into the bore by 1 mm"),
         ("drive.arm_bearing.rollers=16", "overlap in a bore of radius 17 mm; take them smaller than"),
         ("drive.arm_bearing.roller_length=10", "it must be at most cycloid.face_width = 9 mm"),
-        ("drive.crankshaft.radius=10", "it must be at most raceway radius less eccentricity = 9.7 mm"),
+        ("drive.crankshaft.radius=10", "it must be at most raceway radius less eccentricity = 9.698 mm"),
         ("drive.crankshaft.planet_position=10", "the planets cut into the discs; .* 14 mm"),
         ("drive.crankshaft.bearing_positions=[-5,16]", "on both sides of the discs, at -9.5 mm or below"),
         ("drive.ring.outer_radius=66", "it must enclose the pins, more than 67 mm"),

@@ -92,7 +92,7 @@ def test_a_crowned_roller_touches_over_hertz_ellipse() -> None:
 
 @pytest.mark.independent
 def test_two_teeth_against_resolved_contact() -> None:
-    """Two teeth share a load; facets of a quarter of each half width: approach and shares 1 %, pressures and ends 3 %."""
+    """Two teeth share a load; facets of a quarter of the half width: approach, shares 1 %, pressures, ends 3 %."""
     rollers, first, load = np.array([5, 6]), 3, 800.0 * 0.0486
     row = press_rim(SHAPE, RimSize(INNER, OUTER, teeth=3), STEEL, RimMesh(24, 4)).compliance
     start = SHAPE.start + first * SHAPE.pitch

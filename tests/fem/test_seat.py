@@ -352,12 +352,33 @@ def _report(wall: float, feet: tuple[tuple[float, float], ...] = FEET) -> SeatRe
 
 @pytest.mark.property
 def test_thinner_walls_make_the_rigid_ring_more_wrong() -> None:
-    """On the same feet, walls of 0.2, 0.4 and 0.8 bore radius; each step is beyond the errors of both numbers."""
-    reports = [_report(w) for w in (0.2, 0.4, 0.8)]
+    """On the same feet, walls of 1/4, 1/2 and 1 bore radius; each step is beyond the errors of both numbers."""
+    reports = [_report(w) for w in (0.25, 0.5, 1.0)]
     for thin, thick in itertools.pairwise(reports):
         assert (
             thin.stiffness.value - thin.stiffness.error > thick.stiffness.value + thick.stiffness.error > 1.0
         )
+
+
+@pytest.mark.regression
+@pytest.mark.parametrize(
+    ("feet", "load", "stiffness", "shape", "largest"),
+    [
+        (FEET, DOWN, 1.499, 1.164, 1.064),
+        (FEET, -DOWN, 2.962, 1.941, 0.8543),
+        (FEET, np.array([5000.0, 0.0]), 3.195, 1.517, 2.207),
+        (ROUND, DOWN, 1.029, 1.010, 0.9994),
+    ],
+)
+def test_numbers_of_the_manual(
+    feet: tuple[tuple[float, float], ...], load: Array, stiffness: float, shape: float, largest: float
+) -> None:
+    """docs/model.md, wall of a quarter of the bore's radius, to the errors given there."""
+    facets = usual_facets(BORE, 0.25 * BORE)
+    report = rigid_ring_error(PLAIN, lambda n: _seat(0.25, n, feet), facets, load, np.radians(4.0))
+    found = (report.stiffness, report.shape, report.largest)
+    assert [f.value for f in found] == pytest.approx([stiffness, shape, largest], abs=3e-3)
+    assert max(f.error for f in found) <= 3.5e-3
 
 
 @pytest.mark.property

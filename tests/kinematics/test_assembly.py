@@ -178,3 +178,12 @@ def test_require_names_all_that_fails() -> None:
     require(good)
     with pytest.raises(Infeasible, match=r"5 equal crankshafts .*\n3 planets of radius .* collide"):
         require(good, cranks_assemble(12, 36, 5), neighbors_clear("planets", 3, 0.036, 0.04))
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("radius", [-67.0, -1.0, 0.0])
+def test_bodies_without_a_radius_have_room_for_the_one(radius: float) -> None:
+    """Shifts beyond all reason leave a planet without a tip circle; what else is wrong with them is said elsewhere."""
+    from trochoid.kinematics.assembly import most_beside
+
+    assert most_beside(52.0, radius) == 1

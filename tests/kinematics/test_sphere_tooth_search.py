@@ -12,7 +12,12 @@ from hypothesis import strategies as st
 
 from tests.kinematics.sphere_cases import EXAMPLES, tooth
 from trochoid.kinematics.sphere_tooth import Carrier, SphereTooth
-from trochoid.kinematics.sphere_tooth_checks import largest_nutation, overlap_angle, sphere_tooth_faults
+from trochoid.kinematics.sphere_tooth_checks import (
+    largest_nutation,
+    nutation_limit,
+    overlap_angle,
+    sphere_tooth_faults,
+)
 from trochoid.kinematics.sphere_tooth_clearance import clear_pin_angle, penetration
 from trochoid.kinematics.sphere_tooth_search import nearest_feasible, pin_limit, pin_limit_map
 
@@ -110,3 +115,30 @@ def test_map_is_the_limit_of_each_place() -> None:
             assert found[i, j] == expected
     assert found[0, 2] == found[1, 2] == 0.0
     assert math.degrees(found[1, 1]) == pytest.approx(8.50875, abs=5e-6)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(("pin", "polar"), [(5.0, 70.0), (8.0, 80.0), (0.5, 50.0), (2.0, 90.0)])
+def test_nutation_limit_is_where_this_pin_cuts_the_flank(pin: float, polar: float) -> None:
+    """Just below the limit the tooth can be made, just above it cannot, by undercut or by cusps."""
+    tooth = SphereTooth(15, 14, math.radians(polar), math.radians(pin), math.radians(1.0), side=1)
+    limit = nutation_limit(tooth)
+    assert tooth.nutation < limit <= largest_nutation(tooth)
+    assert not sphere_tooth_faults(replace(tooth, nutation=(1.0 - 1e-5) * limit))
+    assert sphere_tooth_faults(replace(tooth, nutation=(1.0 + 1e-5) * limit))
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("pins_on", ["ring", "satellite"])
+@pytest.mark.parametrize("share", [0.0, 1e-14, 1e-12, 1e-10, 1e-9, 1e-8, 5e-8])
+def test_a_nutation_within_rounding_of_its_range_is_out_of_it(share: float, pins_on: Carrier) -> None:
+    """There the curvature of the path is 0/0; the refusal is that of the range."""
+    thin = SphereTooth(15, 14, 1.2, 1e-4, 0.01, side=1, pins_on=pins_on)
+    (fault,) = sphere_tooth_faults(replace(thin, nutation=(1.0 - share) * largest_nutation(thin)))
+    assert "out of range" in fault
+
+
+@pytest.mark.property
+def test_a_pin_thinner_than_rounding_has_no_penetration() -> None:
+    """The flank is then the path itself, found again within the root of rounding, which is where squares are flat."""
+    assert -1e-7 < penetration(SphereTooth(15, 14, 1.2, 1e-300, 0.04, side=1)) < 1e-12

@@ -48,6 +48,15 @@ def test_document_has_the_keys_of_the_contract(outcome: Outcome) -> None:
     assert "value" not in document["quantities"]["member_speeds"]
 
 
+@pytest.mark.exact
+def test_parts_of_parts_have_no_key_between_them() -> None:
+    """Contract: {"parts": {"sun": {"tip_diameter": {"value": …}}}}, whether the sun is a mapping or a quantity."""
+    tip = {"tip_diameter": Quantity(45.464, "mm")}
+    document = _document(quantities={"profile": Quantity(parts={"sun": Quantity(parts=tip), "ring": tip})})
+    entry = {"tip_diameter": {"value": 45.464, "unit": "mm"}}
+    assert document["quantities"]["profile"] == {"parts": {"sun": entry, "ring": entry}}
+
+
 @pytest.mark.property
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_floats_come_back_exactly(value: float) -> None:

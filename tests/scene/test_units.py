@@ -75,7 +75,7 @@ def test_default_unit_may_be_written_or_left_out(family: Family, number: float) 
 @pytest.mark.parametrize("wanted", FAMILIES, ids=lambda family: family.noun)
 @pytest.mark.parametrize("given_family", FAMILIES, ids=lambda family: family.noun)
 def test_other_dimension_is_refused_by_name(wanted: Family, given_family: Family) -> None:
-    """Each kind of quantity refuses every other and names both; all ten have different dimensions."""
+    """Each kind of quantity refuses every other and names both; all of them have different dimensions."""
     text = f"3 {given_family.si}"
     if wanted is given_family:
         assert read(text, wanted) == 3.0
@@ -121,6 +121,16 @@ def test_what_is_no_length_is_refused(value: object) -> None:
     """What is not one finite number with at most one unit is refused with what to write instead."""
     with pytest.raises(ValueError, match=r"need a (length in mm, e\.g\. 64|finite number)"):
         read(value, units.LENGTH)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.noun)
+def test_what_is_larger_than_anything_is_refused(family: Family) -> None:
+    """Sizes beyond 1e20 in SI, whose squares and products would be no numbers."""
+    for value in (1e300, -1e300, f"1.01e20 {family.si}", f"-1e21 {family.si}"):
+        with pytest.raises(ValueError, match=f"need {family.name} of at most 1e\\+20"):
+            read(value, family)
+    assert read(f"9.9e19 {family.si}", family) == pytest.approx(9.9e19, rel=1e-12)
 
 
 @pytest.mark.property

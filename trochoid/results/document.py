@@ -24,7 +24,7 @@ def document(outcome: Outcome) -> dict[str, Any]:
         "schema": SCHEMA,
         "program": {"name": "trochoid", "version": version()},
         "scene": _plain(outcome.scene),
-        "quantities": _parts(outcome.quantities),
+        "quantities": {name: _quantity(found) for name, found in outcome.quantities.items()},
         "stages": [{"name": stage.name, "seconds": _plain(stage.seconds)} for stage in outcome.stages],
         "not_needed": list(outcome.not_needed),
         "warnings": list(outcome.warnings),
@@ -44,9 +44,15 @@ def version() -> str:
 
 
 def _parts(parts: Parts) -> dict[str, Any]:
-    return {
-        name: _quantity(part) if isinstance(part, Quantity) else _parts(part) for name, part in parts.items()
-    }
+    return {name: _part(part) for name, part in parts.items()}
+
+
+def _part(part: Quantity | Parts) -> dict[str, Any]:
+    """Return a part; one that only has parts of its own is these, as deep as it goes, without a key for them."""
+    if not isinstance(part, Quantity):
+        return _parts(part)
+    entry = _quantity(part)
+    return entry["parts"] if list(entry) == ["parts"] else entry
 
 
 def _quantity(quantity: Quantity) -> dict[str, Any]:

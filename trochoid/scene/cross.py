@@ -13,6 +13,7 @@ from trochoid.scene.materials import PREDEFINED
 from trochoid.scene.needs import (
     EFFECTS_OF,
     ELASTIC_MODELS,
+    FRICTION_OF,
     KINDS,
     MODELS_OF,
     NEEDS,
@@ -35,6 +36,7 @@ def faults(raw: Mapping[str, Any]) -> Iterator[Found]:
     kind = drive.get("type")
     if isinstance(kind, str) and kind in KINDS:
         yield from _foreign_effects(kind, effects)
+        yield from _foreign_friction(kind, raw, effects)
         yield from _accuracy(raw, kind)
         yield from _model(_table(raw, "accuracy"), {name for _, name in effects} | _probable_effects(raw))
         yield from _quantities(raw, kind, {name for _, name in effects} | _probable_effects(raw))
@@ -119,18 +121,35 @@ def _foreign_effects(kind: str, effects: Sequence[tuple[int, str]]) -> Iterator[
             yield ("effects", i, "type"), f"{quoted(name)} is not an effect of {kind} drives; {has}"
 
 
+def _foreign_friction(
+    kind: str, raw: Mapping[str, Any], effects: Sequence[tuple[int, str]]
+) -> Iterator[Found]:
+    own = FRICTION_OF.get(kind, ())
+    known = {name for names in FRICTION_OF.values() for name in names}
+    for i, effect in effects:
+        if effect == "friction" and own:
+            for name in _items(raw, "effects")[i]:
+                if name in known and name not in own:
+                    yield (
+                        ("effects", i, name),
+                        f"{kind} drives have no such contact; friction has {listed(own)}",
+                    )
+
+
 def _accuracy(raw: Mapping[str, Any], kind: str) -> Iterator[Found]:
     if "accuracy" in raw and not MODELS_OF[kind]:
         yield (
             ("accuracy",),
             f"all answers about {kind} drives are closed forms: take the table [accuracy] away",
         )
-    model = _table(raw, "accuracy").get("model")
-    offered = MODELS_OF[kind]
-    if offered and isinstance(model, str) and model in MODELS_OF["khv"] and model not in offered:
+    model, known = (
+        _table(raw, "accuracy").get("model"),
+        {name for names in MODELS_OF.values() for name in names},
+    )
+    if MODELS_OF[kind] and model in known - {*MODELS_OF[kind]}:
         yield (
             ("accuracy", "model"),
-            f"{quoted(model)} is not a model of {kind} drives; need {listed(offered)}",
+            f"{quoted(str(model))} is not a model of {kind} drives; it has {listed(MODELS_OF[kind])}",
         )
 
 

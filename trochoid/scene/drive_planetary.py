@@ -18,6 +18,7 @@ Module = Annotated[float, Measure(units.LENGTH, least=0.01, most=1000.0)]
 PressureAngle = Annotated[float, Measure(units.ANGLE, least=5.0, most=40.0)]
 Addendum = Annotated[float, Measure(units.NUMBER, least=0.1, most=3.0)]
 RootClearance = Annotated[float, Measure(units.NUMBER, least=0.0, most=1.0)]
+Torsion = Annotated[float, Measure(units.TILT, above=0.0)]
 Relief = Annotated[float, Measure(units.LENGTH, least=0.0, most=10.0)]
 PlaceError = Annotated[float, Measure(units.LENGTH, least=-10.0, most=10.0)]
 LeastRatio = Annotated[float, Measure(units.NUMBER, least=0.0, most=10.0)]
@@ -45,6 +46,7 @@ class SunBody(Table):
     bore_radius: Size | None = None
     tip_relief: Relief = 0.0
     bearing_stiffness: AnyStiffness = 0.0
+    torsional_stiffness: Torsion | None = None
 
 
 class PlanetBody(Table):
@@ -63,12 +65,14 @@ class RingBody(Table):
     tip_relief: Relief = 0.0
     held: Literal["edge", "evenly"] = "edge"
     bearing_stiffness: AnyStiffness = 1e7
+    torsional_stiffness: Torsion | None = None
 
 
 class CarrierBody(Table):
     """[drive.carrier]: what it floats on."""
 
     bearing_stiffness: AnyStiffness = 3e8
+    torsional_stiffness: Torsion | None = None
 
 
 def _usual_driving(data: dict[str, Any]) -> Member:
@@ -127,8 +131,8 @@ class PlanetaryDrive(DriveTable):
     @classmethod
     def _an_error_each(cls, planet: PlanetBody, info: ValidationInfo) -> PlanetBody:
         given, count = len(planet.position_errors), info.data.get("planets")
-        if count is not None and given not in (0, count):
-            raise fault(f"given {given} position_errors; need one for each of the {count} planets, or none")
+        if count is not None and given > count:
+            raise fault(f"given {given} position_errors; need at most one for each of the {count} planets")
         return planet
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import ValidationInfo, field_validator
+from pydantic import ValidationInfo, field_validator, model_validator
 
 from trochoid.scene import units
 from trochoid.scene.fields import (
@@ -13,7 +13,9 @@ from trochoid.scene.fields import (
     Length,
     Mass,
     Measure,
+    Play,
     PositiveLength,
+    Stiffness,
     Table,
     Whole,
     fault,
@@ -25,6 +27,12 @@ PolarAngle = Annotated[float, Measure(units.ANGLE, above=0.0, most=90.0)]
 PinAngle = Annotated[float, Measure(units.ANGLE, above=0.0, below=90.0)]
 ProductOfInertia = Annotated[float, Measure(units.INERTIA)]
 TeethNumber = Annotated[int, Whole(2, 1000)]
+Elements = Annotated[int, Whole(3, 200)]
+ContactAngle = Annotated[float, Measure(units.ANGLE, above=0.0, below=90.0)]
+Load = Annotated[float, Measure(units.FORCE, above=0.0)]
+AxialLoad = Annotated[float, Measure(units.FORCE, least=0.0)]
+TiltStiffness = Annotated[float, Measure(units.TILT, above=0.0)]
+BearingKind = Literal["deep_groove", "angular_contact", "cylindrical", "needle", "tapered"]
 ROUNDING = 1e-9  # of a moment of inertia
 
 
@@ -67,6 +75,8 @@ class InputShaft(Table):
     offset: Length = 0.0
     product_of_inertia: ProductOfInertia = 0.0
     bearing_distance: Length
+    center: Length | None = None
+    inertia: tuple[Inertia, Inertia] | None = None
 
 
 class Counterweight(Table):
@@ -76,6 +86,61 @@ class Counterweight(Table):
     radius: Length | None = None
     z: Length
     product_of_inertia: ProductOfInertia = 0.0
+
+
+class Bearing(Table):
+    """[drive.bearing_a]: between crank and satellite; a rolling bearing by its sizes, or stiffnesses as given."""
+
+    kind: BearingKind | None = None
+    bore: PositiveLength | None = None
+    outside: PositiveLength | None = None
+    width: PositiveLength | None = None
+    clearance: Length = 0.0
+    contact_angle: ContactAngle | None = None
+    elements: Elements | None = None
+    element_diameter: PositiveLength | None = None
+    element_length: PositiveLength | None = None
+    radial_load: Load | None = None
+    axial_load: AxialLoad = 0.0
+    radial_stiffness: Stiffness | None = None
+    axial_stiffness: Stiffness | None = None
+
+    @model_validator(mode="after")
+    def _has_a_stiffness(self) -> Bearing:
+        if self.kind is None:
+            if self.radial_stiffness is None:
+                raise fault(
+                    "no stiffness; need radial_stiffness, or the kind of a rolling bearing with its bore, outside and "
+                    "width; without the table the bearing is rigid"
+                )
+            return self
+        sizes = {"bore": self.bore, "outside": self.outside, "width": self.width}
+        absent = [name for name, size in sizes.items() if size is None]
+        if absent:
+            raise fault(f'kind = "{self.kind}" needs {", ".join(absent)} too')
+        if self.bore is not None and self.outside is not None and not self.outside > self.bore:
+            raise fault(
+                f"given outside = {1e3 * self.outside:g} mm; need more than bore = {1e3 * self.bore:g} mm"
+            )
+        if self.kind in ("angular_contact", "tapered") and self.axial_load == 0.0:
+            raise fault(
+                f'kind = "{self.kind}" carries nothing without an axial load; give axial_load above 0 N'
+            )
+        return self
+
+
+class Support(Bearing):
+    """[drive.bearing_b]: between input shaft and casing; one bearing that resists tilting, or two alike."""
+
+    spread: Play = 0.0
+    tilt_stiffness: TiltStiffness | None = None
+
+
+class Joint(Table):
+    """[drive.joint_o]: the constant-velocity joint, and the bearings C of the output shaft behind it."""
+
+    radial_stiffness: Stiffness
+    bearing_stiffness: Stiffness | None = None
 
 
 class OutputShaft(Table):
@@ -114,6 +179,9 @@ class PrecessionalDrive(DriveTable):
     input_shaft: InputShaft
     counterweight: Counterweight | None = None
     output_shaft: OutputShaft | None = None
+    bearing_a: Bearing | None = None
+    bearing_b: Support | None = None
+    joint_o: Joint | None = None
     teeth: Teeth | None = None
 
     @field_validator("z_satellite")
@@ -125,6 +193,19 @@ class PrecessionalDrive(DriveTable):
                 f"{satellite + 1}"
             )
         return satellite
+
+    @field_validator("joint_o")
+    @classmethod
+    def _has_a_mass(cls, joint: Joint | None, info: ValidationInfo) -> Joint | None:
+        if (
+            joint is not None
+            and joint.bearing_stiffness is not None
+            and info.data.get("output_shaft") is None
+        ):
+            raise fault(
+                "bearing_stiffness needs the mass of the output shaft: the table [drive.output_shaft]"
+            )
+        return joint
 
     @field_validator("teeth")
     @classmethod

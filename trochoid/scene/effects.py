@@ -28,7 +28,7 @@ class Clearance(Table):
 
 
 class BearingCompliance(Table):
-    """The rollers of the eccentric bearing deform."""
+    """Bearings deform, and with them what stands on them moves."""
 
     type: Literal["bearing_compliance"]
 
@@ -52,7 +52,8 @@ class CasingOnMounts(Table):
 
 
 class Friction(Table):
-    """Coulomb friction where flanks slide on ring pins and holes on output rollers; rolling bearings have none.
+    """Coulomb friction where flanks slide on ring pins, holes on output rollers and teeth on teeth; rolling bearings
+    have none. A kind of drive has the coefficients of its own contacts only (needs.FRICTION_OF).
 
     Each coefficient is the tangential over the normal force at the outside of pin or roller, where it stands still
     as well as where it turns: μ for a pin that is held, μ·r_bore/r_outside for a sleeve that slides on its pin.
@@ -61,10 +62,18 @@ class Friction(Table):
     type: Literal["friction"]
     ring_pins: Coefficient = 0.05
     output_pins: Coefficient = 0.05
+    teeth: Coefficient = 0.05
 
 
 AnyEffect: TypeAlias = (
-    ElasticContact | PinCompliance | Clearance | BearingCompliance | PositionErrors | InertiaForces | CasingOnMounts | Friction
+    ElasticContact
+    | PinCompliance
+    | Clearance
+    | BearingCompliance
+    | PositionErrors
+    | InertiaForces
+    | CasingOnMounts
+    | Friction
 )
 Effect: TypeAlias = Annotated[AnyEffect, Field(discriminator="type")]
 EFFECTS: tuple[str, ...] = tuple(

@@ -57,6 +57,7 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "bearing_stiffness": ("bearing_compliance",),
         "reactions": ("inertia",),
         "balance": (),
+        "natural_frequencies": ("inertia",),
         "vibration_velocity": ("inertia", "casing_on_mounts"),
         "vibration_zone": ("inertia", "casing_on_mounts"),
         "mass": (),
@@ -69,6 +70,7 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "contact_ratio": (),
         "reactions": ("inertia",),
         "balance": (),
+        "natural_frequencies": ("bearing_compliance", "inertia"),
         "vibration_velocity": ("inertia", "casing_on_mounts"),
         "vibration_zone": ("inertia", "casing_on_mounts"),
         "mass": (),
@@ -87,6 +89,8 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "torsional_stiffness": ("elastic_contact",),
         "stiffness_breakdown": ("elastic_contact",),
         "lost_motion": ("elastic_contact",),
+        "efficiency": ("elastic_contact", "friction"),
+        "power_loss": ("elastic_contact", "friction"),
         "bearing_loads": ("elastic_contact",),
         "balance": (),
         "mass": (),
@@ -101,6 +105,7 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "load_sharing": ("elastic_contact",),
         "contact_force_max": ("elastic_contact",),
         "contact_pressure_max": ("elastic_contact",),
+        "stress_max": ("elastic_contact",),
         "transmission_error": ("elastic_contact",),
         "mesh_stiffness": ("elastic_contact",),
         "torsional_stiffness": ("elastic_contact",),
@@ -134,10 +139,16 @@ EFFECTS_OF: dict[str, tuple[str, ...]] = {
         "casing_on_mounts",
         "friction",
     ),
-    "precessional": ("inertia", "casing_on_mounts"),
-    "rv": ("elastic_contact", "pin_compliance", "clearance", "bearing_compliance", "inertia"),
+    "precessional": ("bearing_compliance", "inertia", "casing_on_mounts"),
+    "rv": ("elastic_contact", "pin_compliance", "clearance", "bearing_compliance", "inertia", "friction"),
     "planetary": ("elastic_contact", "bearing_compliance", "position_errors", "clearance", "inertia"),
     "indexer": ("inertia",),
+}
+
+# the contacts of a kind of drive that friction has a coefficient for
+FRICTION_OF: dict[str, tuple[str, ...]] = {
+    "khv": ("ring_pins", "output_pins"),
+    "rv": ("ring_pins", "teeth"),
 }
 
 # the contact models among which a kind of drive chooses; none: closed forms, and nothing to choose

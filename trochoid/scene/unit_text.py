@@ -13,7 +13,6 @@ from trochoid.scene.units import ANGLE, FAMILIES, SPEED, Family, needed
 _WRITTEN = {"Nm": "N*m", "Nmm": "N*mm", "kNm": "kN*m"}  # pint reads "Nm" as the textile unit "number metric"
 _OTHERS = {
     "time": "s",
-    "force": "N",
     "power": "W",
     "area": "m^2",
     "volume": "m^3",

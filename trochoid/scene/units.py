@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from trochoid.faults import shown
 
+LARGEST = 1e20  # in SI, of any quantity: nothing of a drive is larger, and squares and products stay numbers
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*)?", re.DOTALL)
 
 
@@ -50,8 +51,12 @@ INERTIA = Family("a moment of inertia", "kg*m^2", "kg*m^2", example='0.25 or "0.
 DENSITY = Family("a density", "kg/m^3", "kg/m^3", example='7850 or "7.85 g/cm^3"')
 STIFFNESS = Family("a stiffness", "N/mm", "N/m", up=1e3, example='300000 or "3e8 N/m"')
 DAMPING = Family("a damping constant", "N*s/m", "N*s/m", example='200 or "200 N*s/m"')
+FORCE = Family("a force", "N", "N", example='120 or "120 N"')
+TILT = Family(
+    "a torsional stiffness", "N*m/rad", "N*m/rad", example='20000 or "20 kN*m/rad"'
+)  # a torque by its dimension
 
-FAMILIES = (LENGTH, ANGLE, TORQUE, SPEED, STRESS, MASS, INERTIA, DENSITY, STIFFNESS, DAMPING)
+FAMILIES = (LENGTH, ANGLE, TORQUE, SPEED, STRESS, MASS, INERTIA, DENSITY, STIFFNESS, DAMPING, FORCE)
 
 
 def read(value: object, family: Family) -> float:
@@ -63,7 +68,7 @@ def read(value: object, family: Family) -> float:
         return _read_text(value, family)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(f"given {shown(value)}; need {needed(family)}")
-    return family.to_si(_finite(value, family))
+    return _sized(family.to_si(_finite(value, family)), value, family)
 
 
 def needed(family: Family) -> str:
@@ -82,6 +87,13 @@ def _finite(value: int | float, family: Family) -> float:
     return number
 
 
+def _sized(si: float, value: object, family: Family) -> float:
+    if abs(si) > LARGEST:
+        unit = f" {family.si}" if family.si else ""
+        raise ValueError(f"given {shown(value)}; need {family.name} of at most {LARGEST:g}{unit} in size")
+    return si
+
+
 def _read_text(text: str, family: Family) -> float:
     match = _NUMBER_AND_UNIT.fullmatch(text)
     if match is None or family is NUMBER:
@@ -91,7 +103,7 @@ def _read_text(text: str, family: Family) -> float:
         raise ValueError(f"given the text {shown(text)} without a unit; need {needed(family)}")
     number = _finite(float(digits), family)
     if unit.strip() == family.unit:
-        return family.to_si(number)
+        return _sized(family.to_si(number), text, family)
     from trochoid.scene.unit_text import to_si
 
-    return _finite(to_si(number, unit.strip(), text, family), family)
+    return _sized(_finite(to_si(number, unit.strip(), text, family), family), text, family)

@@ -29,6 +29,7 @@ QUANTITIES = answers(
             "bearing_loads",
             "bearing_stiffness",
             "reactions",
+            "natural_frequencies",
             "vibration_velocity",
             "vibration_zone",
         ),

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +16,9 @@ from trochoid.drives.khv.vibration import CasingVibration
 from trochoid.drives.mesh_error import Pair
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Quantity
+
+if TYPE_CHECKING:
+    from trochoid.drives.khv.modes import NaturalModes
 
 STIFFNESS_ENTRIES = (
     ("k_xx", (0, 0), 1e-6, "N/um"),
@@ -96,6 +101,31 @@ def _size(model: str, member: str, bearing: int) -> Callable[[Reactions], Array]
         return np.asarray(np.linalg.norm(forces[member][:, bearing], axis=-1))
 
     return size
+
+
+def natural_frequencies(s: Stages) -> Quantity:
+    """Natural frequencies by rising frequency, who moves in each; free motions are counted."""
+    from trochoid.drives.khv.modes import near
+
+    found = s.modes.fine
+    parts: dict[str, Quantity] = {}
+    for i, mode in enumerate(found.modes):
+        value = number(s, s.modes.map(_frequency(i)), "Hz")
+        parts[f"mode_{i + 1}"] = replace(value, note=mode.words)
+    said = [
+        "undamped, input held, mean stiffness over the turn, which departs from it by up to "
+        f"{100.0 * found.stiffness_variation:.2g} %"
+    ]
+    if found.free:
+        said.append(f"{found.free} motions are free within their play")
+    return Quantity(parts=parts, note="; ".join([*said, *near(s.design, found.modes)]))
+
+
+def _frequency(i: int) -> Callable[[NaturalModes], float]:
+    def get(found: NaturalModes) -> float:
+        return found.modes[min(i, len(found.modes) - 1)].frequency  # a coarser mesh may leave more of them free
+
+    return get
 
 
 def vibration_velocity(s: Stages) -> Quantity:

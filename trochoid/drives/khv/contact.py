@@ -14,12 +14,12 @@ import numpy as np
 
 from trochoid.drives.disc_pack import Disc, circle
 from trochoid.drives.khv.design import Design
-from trochoid.drives.roller_seat import RollerSeat, least_load, round_side
 from trochoid.fem.bearing import EXPONENT
 from trochoid.fem.laws import HertzLine, Law, LinearSpring, PowerLaw
 from trochoid.fem.material import Material, Plane
 from trochoid.fem.pair import FlankPair, HolePair, Member, Seat
 from trochoid.fem.position import Assembly, ElasticBody, Family
+from trochoid.fem.seat_law import RollerSeat, least_load, round_side
 from trochoid.kinematics.types import Array
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from trochoid.drives.khv import entries as show
 from trochoid.drives.khv.entries import ANGLE, Entries, entry, named, numbered
 from trochoid.drives.khv.stages import Stages
+from trochoid.dynamics.spectrum import harmonics
 from trochoid.kinematics.types import Array
 
 if TYPE_CHECKING:
@@ -39,6 +40,11 @@ def dataset(stages: Stages, wanted: Collection[str]) -> xarray.Dataset | None:
     if "reactions" in wanted:
         entries |= _reactions(stages)
         coordinates[ANGLE] = entry((ANGLE,), stages.reactions.fine.angle, "rad", "input angle")
+        count = len(entries["reaction_lines_rigid"][1])
+        base = stages.scene.operation.input_speed / (2.0 * np.pi)
+        coordinates["reaction_frequency"] = entry(
+            ("reaction_frequency",), base * np.arange(1, count + 1), "Hz", "frequency"
+        )
     if "vibration" in wanted:
         entries |= _vibration(stages)
         found = stages.vibration.fine.elastic
@@ -225,6 +231,12 @@ def _reactions(stages: Stages) -> Entries:
         size = np.linalg.norm(force, axis=-1)
         made[f"reaction_{name}"] = entry(parts[:2], size, "N", f"reaction, {name}", show.REACTIONS)
         made[f"reaction_{name}_components"] = entry(parts, force, "N", f"components of the {name} reaction")
+    for name, force in forces.items():
+        lines = np.linalg.norm(harmonics(force)[1:], axis=-1)
+        dims = ("reaction_frequency", "bearing")
+        made[f"reaction_lines_{name}"] = entry(
+            dims, lines, "N", f"amplitude, {name}", show.LINES, scale="log"
+        )
     if "elastic" in forces:
         change = np.linalg.norm(forces["elastic"] - forces["rigid"], axis=-1)
         made["reaction_change"] = entry(parts[:2], change, "N", "difference", show.CHANGE)

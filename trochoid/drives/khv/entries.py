@@ -12,6 +12,7 @@ __all__ = ["ANGLE", "Entries", "Entry", "entry", "named", "numbered"]
 SHARING, OUTPUT, ECCENTRIC = "Load sharing of the ring pins", "Output pins", "Eccentric bearings"
 PRESSURE, STIFFNESS, ERROR = "Contact pressure", "Torsional stiffness", "Transmission error"
 REACTIONS, CHANGE, VELOCITY = "Bearing reactions", "Elastic less rigid reactions", "Vibration velocity"
+LINES = "Harmonics of the bearing reactions"
 TORSION, LOSSES = "Torsion curve", "Friction losses"
 CAPTIONS = {
     LOSSES: "Work lost per radian of the input on each disc, as a torque at the input.",
@@ -22,6 +23,7 @@ CAPTIONS = {
     STIFFNESS: "Torque per angle at the output with the input held: the tangent at the operating torque.",
     REACTIONS: "Size of the force on shaft and flange in each of their bearings, A at the lower z.",
     CHANGE: "Size of the vector difference: what the inertia of the members' elastic motion adds.",
+    LINES: "Amplitude of the force vector in each bearing at the multiples of the input speed, by both models.",
     VELOCITY: "Amplitude at the multiples of the input speed, by the vector sum of all forces on the casing.",
 }
 

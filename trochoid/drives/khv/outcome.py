@@ -16,6 +16,7 @@ from trochoid.results.outcome import Check, Outcome, Quantity, Stage
 
 if TYPE_CHECKING:
     from trochoid.drives.khv.series import Series
+    from trochoid.results.plot import Plot
 
 BALANCE = 1e-9
 
@@ -49,7 +50,14 @@ def _pictures(stages: Stages, ran: tuple[str, ...]) -> dict[str, Any]:
             "dataset": dataset(stages, ran),
             "drawing": drawing(stages),
             "fields": fields(stages) if "stress" in ran else (),
+            "plots": _campbell(stages) if "modes" in ran else (),
         }
+
+
+def _campbell(stages: Stages) -> tuple[Plot, ...]:
+    from trochoid.drives.khv.modes import campbell
+
+    return (campbell(stages.design, stages.contact.fine, stages.masses),)
 
 
 def checks(stages: Stages) -> tuple[Check, ...]:

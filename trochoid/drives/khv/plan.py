@@ -29,6 +29,7 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "bearing_stiffness": (*_CONTACT, "bearing"),
     "reactions": (*_CONTACT, "mass", "reactions"),
     "balance": ("kinematics", "geometry", "mass"),
+    "natural_frequencies": (*_CONTACT, "mass", "modes"),
     "vibration_velocity": (*_CONTACT, "mass", "reactions", "vibration"),
     "vibration_zone": (*_CONTACT, "mass", "reactions", "vibration"),
     "mass": ("kinematics", "geometry", "mass"),
@@ -46,6 +47,7 @@ WHY = {
     "stress": "von Mises field at one position",
     "bearing": "stiffness of the eccentric bearing under its load",
     "reactions": "bearing reactions over a turn, rigid and elastic",
+    "modes": "natural frequencies, Campbell diagram",
     "vibration": "velocity of the casing on its mounts",
 }
 
@@ -74,6 +76,7 @@ def plan(scene: KhvScene, rung: str, facets: int) -> Plan:
         "losses": contacts * 0.7,
         "stress": 0.35 * d.discs,
         "reactions": 0.1,
+        "modes": 0.05,
         "vibration": 0.02,
     }
     memory = {"bodies": 120 + 4e-4 * stations**2, "contact": 150 + 4e-4 * stations**2}

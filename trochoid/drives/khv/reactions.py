@@ -139,21 +139,21 @@ def _residual(
 
 
 def _response(design: Design, series: Series, masses: Masses, damping: float, turn: Array) -> Response:
-    frames = _frames(series.names, turn)
-    motion, _ = close_turn(np.einsum("nij,nj->ni", frames, series.motion))
-    stiffness = np.einsum("nij,njk,nlk->nil", frames, series.stiffness, frames)[:-1]
+    turned = frames(series.names, turn)
+    motion, _ = close_turn(np.einsum("nij,nj->ni", turned, series.motion))
+    stiffness = np.einsum("nij,njk,nlk->nil", turned, series.stiffness, turned)[:-1]
     return respond(motion, mass_matrix(design, series.names, masses), stiffness, design.crank_speed, damping)
 
 
-def _frames(names: tuple[str, ...], turn: Array) -> Array:
+def frames(names: tuple[str, ...], turn: Array) -> Array:
     """Return matrices (n, k, k) that turn motions from the ring's frame into the fixed one."""
-    frames = np.tile(np.eye(len(names)), (len(turn), 1, 1))
+    made = np.tile(np.eye(len(names)), (len(turn), 1, 1))
     for first, second in (("x", "y"), ("tilt_x", "tilt_y")):
         for i in [i for i, name in enumerate(names) if name.endswith("." + first)]:
             j = names.index(names[i].removesuffix(first) + second)
-            frames[:, i, i] = frames[:, j, j] = np.cos(turn)
-            frames[:, j, i], frames[:, i, j] = np.sin(turn), -np.sin(turn)
-    return frames
+            made[:, i, i] = made[:, j, j] = np.cos(turn)
+            made[:, j, i], made[:, i, j] = np.sin(turn), -np.sin(turn)
+    return made
 
 
 def mass_matrix(design: Design, names: tuple[str, ...], masses: Masses) -> Array:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from trochoid.drives.khv.anderson import fixed_points
+from trochoid.drives.anderson import fixed_points
 from trochoid.drives.khv.contact import Layout, assembly, centrifugal, layout
 from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.sliding import Rates, disc_turning, partner_turning, rates

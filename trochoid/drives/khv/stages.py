@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from trochoid.drives.khv.field import DiscState
     from trochoid.drives.khv.load_path import LoadPath
     from trochoid.drives.khv.mass import Masses
+    from trochoid.drives.khv.modes import NaturalModes
     from trochoid.drives.khv.reactions import Reactions
     from trochoid.drives.khv.running import Running
     from trochoid.drives.khv.seat import SeatStiffness
@@ -244,6 +245,17 @@ class Stages:
 
             return Pair(solved.fine, solved.coarse).map(
                 lambda series: reactions(self.design, series, masses, damping)
+            )
+
+    @cached_property
+    def modes(self) -> Pair[NaturalModes]:
+        """Natural frequencies on the mean stiffness over the turn."""
+        solved, masses = self.contact, self.masses
+        with self.clock.stage("modes"):
+            from trochoid.drives.khv.modes import natural_modes
+
+            return Pair(solved.fine, solved.coarse).map(
+                lambda series: natural_modes(self.design, series, masses)
             )
 
     @cached_property

@@ -14,6 +14,7 @@ QUANTITIES = answers(
             "load_sharing",
             "contact_force_max",
             "contact_pressure_max",
+            "stress_max",
             "transmission_error",
             "mesh_stiffness",
             "torsional_stiffness",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from trochoid.drives.planetary.stages import Stages
 from trochoid.geometry.blocking_contour import Contour
 from trochoid.geometry.blocking_line import Choice, Line
@@ -30,15 +28,9 @@ def blocking_contour(s: Stages) -> Quantity:
 
 
 def _contour(contour: Contour) -> Quantity:
-    """Area, and the length of boundary that each condition makes."""
-    lengths: dict[str, float] = {}
-    for boundary in contour.boundaries:
-        sides = np.hypot(*(np.roll(boundary.points, -1, axis=0) - boundary.points).T)
-        for k in np.unique(boundary.conditions):
-            name = contour.names[k]
-            lengths[name] = lengths.get(name, 0.0) + float(sides[boundary.conditions == k].sum())
-    bounds = {name.replace(" ", "_"): _number(length) for name, length in lengths.items()}
-    return Quantity(parts={"area": _number(contour.area), "length_of_boundary": bounds})
+    """Area, with the conditions that make its boundary."""
+    bounds = f"bounded by {', '.join(contour.binding)}" if contour.binding else "no shifts are possible"
+    return Quantity(parts={"area": Quantity(contour.area, "", 0.0, "exact", note=bounds)})
 
 
 def _line(line: Line, needed: tuple[float, float]) -> Quantity:

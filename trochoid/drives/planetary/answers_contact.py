@@ -16,8 +16,11 @@ from trochoid.results.outcome import Parts, Quantity
 
 if TYPE_CHECKING:
     from trochoid.drives.planetary.meshes import Meshes
+    from trochoid.drives.planetary.roots import Roots
     from trochoid.drives.planetary.series import Series, Touches
     from trochoid.fem.gear_path import Path
+
+STILL = 1e-13  # m: what rounding leaves of a member that does not move
 
 
 def number(s: Stages, pair: Pair[float], unit: str) -> Quantity:
@@ -70,7 +73,10 @@ def contact_pressure_max(s: Stages) -> Quantity:
     """Largest contact pressure in each kind of mesh."""
     answer = _largest(s, lambda touches: touches.pressure, 1e-6, "MPa")
     tip = s.contact.fine.rounding * 1e3
-    note = f"where a tip edge of radius {tip:.3g} mm meets a flank early or late, that edge has the largest; tip relief lowers it"
+    note = (
+        f"where a tip edge of radius {tip:.3g} mm meets a flank early or late, that edge has the largest; tip relief "
+        "lowers it"
+    )
     return replace(answer, note=note)
 
 
@@ -83,20 +89,45 @@ def _largest(s: Stages, get: Callable[[Touches], Array], scale: float, unit: str
     )
 
 
+def stress_max(s: Stages) -> Quantity:
+    """Largest tension in the fillets of the teeth of each wheel."""
+
+    def of(get: Callable[[Roots], Array]) -> Quantity:
+        return number(s, s.roots.map(lambda r: 1e-6 * float(get(r).max())), "MPa")
+
+    parts = {
+        "sun_root": of(lambda r: r.sun),
+        "planet_root": of(lambda r: r.planet),
+        "ring_root": of(lambda r: r.ring),
+    }
+    return Quantity(
+        parts=parts, note="largest tension along the fillets of the teeth that carry, over a pitch"
+    )
+
+
 def transmission_error(s: Stages) -> Quantity:
     """Loaded transmission error of the driven member over a pitch, and its mean, the wind-up."""
-    return Quantity(
-        parts={
-            "peak_to_peak": over_pitch(s, lambda x: float(np.ptp(x.lag)) / ARCMIN * 60, "arcsec"),
-            "wind_up": over_pitch(s, lambda x: float(x.lag.mean()) / ARCMIN, "arcmin"),
-        }
-    )
+    parts = {
+        "peak_to_peak": over_pitch(s, lambda x: float(np.ptp(x.lag)) / ARCMIN * 60, "arcsec"),
+        "wind_up": over_pitch(s, lambda x: float(x.lag.mean()) / ARCMIN, "arcmin"),
+    }
+    load = abs(s.contact.fine.load.driven)
+    shafts = {"sun": "sun_shaft", "ring": "ring_seat", "carrier": "carrier"}
+    for member, twist in s.contact.fine.twists.items():
+        parts[f"of_it_{shafts[member]}"] = Quantity(twist * load / ARCMIN, "arcmin", 0.0, "exact")
+    return Quantity(parts=parts)
 
 
 def torsional_stiffness(s: Stages) -> Quantity:
     """Torque per angle at the output with the input held, mean over a pitch: the tangent at the load."""
     answer = over_pitch(s, lambda x: float(x.torsional_stiffness.mean()) * ARCMIN, "N*m/arcmin")
-    return replace(answer, note="tangent at the operating torque, mean over a pitch; shafts are rigid")
+    return replace(answer, note=_said(s))
+
+
+def _said(s: Stages) -> str:
+    twisting = " and ".join(s.contact.fine.twists)
+    rest = f"with the twist of {twisting}" if twisting else "shafts and carrier do not twist"
+    return f"tangent at the operating torque, mean over a pitch; {rest}"
 
 
 def mesh_stiffness(s: Stages) -> Quantity:
@@ -126,7 +157,7 @@ def _mesh(s: Stages, get: Callable[[Meshes], Path], width: float) -> Quantity:
             "mean": of(lambda k: float(k.mean()), "N/um", 1e-6),
             "least": of(lambda k: float(k.min()), "N/um", 1e-6),
             "largest": of(lambda k: float(k.max()), "N/um", 1e-6),
-            "mean_per_face_width": of(lambda k: float(k.mean()), "N/(mm*um)", 1e-9 / width),
+            "mean_per_face_width": of(lambda k: float(k.mean()), "N/mm/um", 1e-9 / width),
         }
     )
 
@@ -134,25 +165,30 @@ def _mesh(s: Stages, get: Callable[[Meshes], Path], width: float) -> Quantity:
 def elastic_bearing_loads(s: Stages) -> Quantity:
     """Forces on the planets' bearings and on those of the other members over a pitch, and how far these float."""
 
-    def largest(get: Callable[[Series], Array]) -> Quantity:
-        return over_pitch(s, lambda x: float(_size(get(x)).max()), "N")
-
     on = float(s.speeds.relative("planet", "carrier")) * s.scene.operation.input_speed
     parts: dict[str, Quantity | Parts] = {
         "planet_bearing": {
-            "largest": largest(lambda x: x.bearing),
+            "largest": over_pitch(s, lambda x: float(_size(x.bearing).max()), "N"),
             "mean": over_pitch(s, lambda x: float(_size(x.bearing).mean()), "N"),
             "speed": Quantity(on / RPM, "rpm", 0.0, "exact"),
         }
     }
     for member in ("sun", "ring", "carrier"):
-        made = {"largest": largest(lambda x, m=member: x.members[m])}  # type: ignore[misc]
-        if f"{member}.x" in s.contact.fine.layout.names:
-            made["displacement"] = over_pitch(
-                s, lambda x, m=member: 1e6 * float(_size(x.moved(m)[:, :2]).max()), "um"  # type: ignore[misc]
-            )
-        parts[member] = made
+        parts[member] = _member(s, member)
     return Quantity(parts=parts, note="what is left on sun, ring and carrier of unequal planets")
+
+
+def _member(s: Stages, member: str) -> Parts:
+    """Return the largest force that a member's own bearings take, and how far it moves in them."""
+
+    def moved(x: Series) -> float:
+        way = float(_size(x.moved(member)[:, :2]).max())
+        return 1e6 * way if way > STILL else 0.0
+
+    made = {"largest": over_pitch(s, lambda x: float(_size(x.members[member]).max()), "N")}
+    if f"{member}.x" in s.contact.fine.layout.names:
+        made["displacement"] = over_pitch(s, moved, "um")
+    return made
 
 
 def _size(vectors: Array) -> Array:

@@ -55,7 +55,9 @@ def profile(s: Stages) -> Quantity:
         }
         parts[name] = exact(values)
     parts |= _meshes(s)
-    return Quantity(parts=parts, note="ρ: radius of curvature of the flank at the place that the name tells")
+    return Quantity(
+        parts=parts, note="rho: radius of curvature of the flank at the place that the name tells"
+    )
 
 
 def _meshes(s: Stages) -> dict[str, Quantity]:
@@ -116,22 +118,27 @@ def _margin(condition: Condition) -> Quantity:
 
 
 def contact_ratio(s: Stages) -> Quantity:
-    """Pairs of teeth in contact in the mean, and the share of time with each number of pairs."""
-    set_ = s.feasible.geometry
+    """Pairs of teeth in contact in the mean, the share of time with the fewest, and how planets follow each other."""
+    made, set_ = s.feasible.given, s.feasible.geometry
     sun, planet, ring = set_.tips
     meshes: dict[str, Any] = {
         "sun_planet": set_.outer.contact_ratio(sun, planet),
         "planet_ring": set_.inner.contact_ratio(planet, ring),
     }
-    return Quantity(parts={name: _pairs(float(ratio)) for name, ratio in meshes.items()})
+    step = (
+        made.teeth[2] % made.planets / made.planets
+    )  # that of the sun's mesh is -z1/N, the same when planets fit
+    note = "phase step: share of a pitch by which the next planet's mesh is ahead on its path; 0: all are in step"
+    return Quantity(parts={name: _pairs(float(ratio), step) for name, ratio in meshes.items()}, note=note)
 
 
-def _pairs(ratio: float) -> Quantity:
+def _pairs(ratio: float, step: float) -> Quantity:
     fewest = math.floor(ratio)
     return exact(
         {
             "contact_ratio": (ratio, ""),
             "fewest_pairs": (float(fewest), ""),
             "share_of_time_with_fewest": (fewest + 1.0 - ratio, ""),
+            "phase_step": (step, ""),
         }
     )

@@ -36,10 +36,14 @@ def seat_residual(design: Design, series: Series) -> float:
         rows = series.layout.planet(i, place)[:2] - series.layout.seat(place)
         spring = d.planet.bearing_stiffness * series.motion @ rows.T
         found.append(np.abs(spring - series.bearing[:, i]).max())
-    stiffness = {"sun": d.sun, "carrier": d.carrier, "ring": d.ring}
-    for name, table in stiffness.items():
+    members = {
+        "sun": d.sun.bearing_stiffness,
+        "carrier": d.carrier.bearing_stiffness,
+        "ring": d.ring.bearing_stiffness,
+    }
+    for name, stiffness in members.items():
         if f"{name}.x" in series.layout.names:
-            spring = table.bearing_stiffness * series.moved(name)[:, :2]
+            spring = stiffness * series.moved(name)[:, :2]
             found.append(np.abs(spring - series.members[name]).max())
     return float(max(found) / size)
 
@@ -73,8 +77,12 @@ def power_residual(series: Series, turning: Speeds) -> float:
     relative = {name: float(turning.relative(name, "carrier")) for name in ("sun", "planet", "ring")}
     given = found["sun"] * relative["sun"] + found["ring"] * relative["ring"]
     center = series.planet_centers
-    taken = _closing(series.sun, (series.moved("sun")[:, None, :2], relative["sun"]), (center, relative["planet"]))
-    taken += _closing(series.ring, (center, relative["planet"]), (series.moved("ring")[:, None, :2], relative["ring"]))
+    taken = _closing(
+        series.sun, (series.moved("sun")[:, None, :2], relative["sun"]), (center, relative["planet"])
+    )
+    taken += _closing(
+        series.ring, (center, relative["planet"]), (series.moved("ring")[:, None, :2], relative["ring"])
+    )
     through = np.abs(found["sun"] * relative["sun"]).max()
     return float(np.abs(given - taken).max() / through)
 

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from trochoid.drives.planetary.blanks import blanks
 from trochoid.drives.planetary.design import Design
 from trochoid.fem.gear_body import GearBody, press_gear
 from trochoid.fem.gear_flank import Relief
 from trochoid.fem.gear_mesh import Wheel
 from trochoid.fem.material import Material, Plane
-from trochoid.geometry.gear_outline import Blank
-from trochoid.geometry.gear_tooth import Tooth, sharpest
 from trochoid.geometry.planetary_curves import Members
+from trochoid.kinematics.errors import Infeasible, NotConverged, TrochoidError
 
+TRIES = 6  # numbers of facets, one after the other
 BENT = 1.0  # share of a tip relief over which it bends: a parabola, whose curvature has no steps within the relief
 
 
@@ -31,28 +32,42 @@ def plane(design: Design) -> Plane:
     return made.plane(design.drive.plane)
 
 
-def blanks(design: Design, curves: Members) -> tuple[Blank, Blank, Blank]:
-    """Return teeth with rounded tip edges and the rims below them; raises Infeasible."""
-    d, (bore_sun, bore_planet, outer) = design.drive, design.bores
-    tips = [float(tip) for tip in design.geometry.tips]
-    made = []
-    for curve, tip, rim in zip((curves.sun, curves.planet, curves.ring), tips, (bore_sun, bore_planet, outer), strict=True):
-        gear = curve.cut.gear
-        rounding = sharpest(gear) if d.tip_rounding is None else d.tip_rounding
-        made.append(Blank(Tooth(curve.cut, tip, rounding), rim))
-    return made[0], made[1], made[2]
-
-
 def build_level(design: Design, curves: Members, facets: int) -> Level:
-    """Mesh and press the wheels; raises Infeasible, TrochoidError."""
+    """Mesh and press the wheels with `facets` per flank, or a few more where so many make curved elements fold.
+
+    Raises Infeasible, NotConverged.
+    """
+    said = ""
+    for more in range(TRIES):
+        try:
+            return _level(design, curves, facets + more)
+        except (Infeasible, NotConverged):
+            raise
+        except TrochoidError as error:
+            said = str(error)
+    sharp = design.given.cutter.rounding == 0.0
+    advice = (
+        f"the cutter's sharp tips leave fillets that a mesh does not follow; give drive.ring_cutter.tip_rounding, some "
+        f"{100.0 * design.drive.module:.3g} mm, or more accuracy.facets_per_lobe"
+        if sharp
+        else "give more accuracy.facets_per_lobe"
+    )
+    raise NotConverged(
+        f"the wheels cannot be meshed with {facets} to {facets + TRIES - 1} facets per flank ({said}); {advice}"
+    )
+
+
+def _level(design: Design, curves: Members, facets: int) -> Level:
     moduli, width = plane(design), design.drive.face_width
-    made = [press_gear(blank, moduli, facets, held) for blank, held in zip(blanks(design, curves), held_rims(design), strict=True)]
-    sun, planet, ring = (Wheel.of(body, width, reliefs(design, body, k)) for k, body in enumerate(made))
+    shapes, held = blanks(design, curves), held_rims(design)
+    # the ring first: its sharp fillets are what a mesh may fail at
+    made = {k: press_gear(shapes[k], moduli, facets, held[k]) for k in (2, 0, 1)}
+    sun, planet, ring = (Wheel.of(made[k], width, reliefs(design, made[k], k)) for k in range(3))
     return Level(facets, (sun, planet, ring))
 
 
 def held_rims(design: Design) -> tuple[bool, bool, bool]:
-    """Whether the rims' edges are fixed: bores sit on stiff shafts and pins, the ring in its casing as the scene says."""
+    """Whether the rims' edges are fixed: bores sit on stiff shafts and pins, the ring is held as the scene says."""
     return True, True, design.drive.ring.held == "edge"
 
 

@@ -78,7 +78,8 @@ def centers(design: Design) -> Array:
     out = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     place = d.center_distance * out
     if design.scene.has("position_errors"):
-        errors = np.array(d.planet.position_errors or (0.0,) * d.planets)
+        errors = np.zeros(d.planets)
+        errors[: len(d.planet.position_errors)] = d.planet.position_errors
         place = place + errors[:, None] * np.stack([-out[:, 1], out[:, 0]], axis=-1)
     return frozen(place)
 
@@ -117,9 +118,7 @@ def assembly(design: Design, turning: Speeds, level: Level, load: Load, angle: A
     )
 
 
-def _nominal(
-    design: Design, level: Level, hand: tuple[int, int], sun: Member
-) -> list[Array]:
+def _nominal(design: Design, level: Level, hand: tuple[int, int], sun: Member) -> list[Array]:
     """Return the angles (n,) of all planets and, last, of the ring, at which unloaded flanks just touch."""
     d = design.drive
     wheels = [wheel.flank for wheel in level.wheels]
@@ -151,7 +150,11 @@ def springs(design: Design, motions: Layout, places: Array) -> Array:
     total = np.zeros((len(motions.names),) * 2)
     if not motions.floating:
         return total
-    for name, stiffness in (("sun", d.sun.bearing_stiffness), ("carrier", d.carrier.bearing_stiffness), ("ring", d.ring.bearing_stiffness)):
+    for name, stiffness in (
+        ("sun", d.sun.bearing_stiffness),
+        ("carrier", d.carrier.bearing_stiffness),
+        ("ring", d.ring.bearing_stiffness),
+    ):
         at = motions.rows(name)[:2]
         total += stiffness * at.T @ at
     for i, center in enumerate(places):
@@ -168,6 +171,23 @@ def loads(motions: Layout, places: Array, load: Load, positions: int) -> Array:
         for i, center in enumerate(places):
             total += load.centrifugal * (center / np.linalg.norm(center)) @ motions.rows(f"planet{i}")[:2]
     return total
+
+
+def twists(design: Design) -> dict[str, float]:
+    """Return how far the driven member turns per its torque (rad/(N·m)) because sun shaft, ring seat or carrier twist.
+
+    (T/T_driven)²/k, by the work that they take; only those that the scene gives, and with "bearing_compliance".
+    """
+    d = design.drive
+    if not design.scene.has("bearing_compliance"):
+        return {}
+    torque = {"sun": d.z_sun, "ring": d.z_ring, "carrier": d.z_sun + d.z_ring}
+    given = {name: getattr(d, name).torsional_stiffness for name in torque}
+    return {
+        name: (torque[name] / torque[d.driven]) ** 2 / stiffness
+        for name, stiffness in given.items()
+        if stiffness is not None
+    }
 
 
 def wheel_pair(level: Level, outer: bool) -> tuple[Wheel, Wheel]:

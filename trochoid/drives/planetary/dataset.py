@@ -38,10 +38,15 @@ def dataset(stages: Stages, ran: Collection[str]) -> xarray.Dataset:
         entries = {**_contact(stages), **entries}
         coordinates[ANGLE] = entry((ANGLE,), stages.contact.fine.angle, "rad", "input angle")
         coordinates["axis"] = named("axis", ("x", "y"), "direction in the carrier's frame")
+    if "stress" in ran:
+        entries = {**entries, **_roots(stages)}
     if "meshes" in ran:
         entries = {**_meshes(stages), **entries}
         coordinates["base_pitch"] = entry(
-            ("base_pitch",), np.arange(stages.scene.ask.positions) / stages.scene.ask.positions, "", "share of a base pitch"
+            ("base_pitch",),
+            np.arange(stages.scene.ask.positions) / stages.scene.ask.positions,
+            "",
+            "share of a base pitch",
         )
     return xarray.Dataset(entries, coordinates)
 
@@ -68,15 +73,28 @@ def _contact(stages: Stages) -> Entries:
     mean = float(np.degrees(lag.mean()) * 60)
     made = {
         "planet_torque_share": entry(
-            dims, series.shares, "", "share of the torque", SHARING, caption="Share of each planet in the sun's torque."
+            dims,
+            series.shares,
+            "",
+            "share of the torque",
+            SHARING,
+            caption="Share of each planet in the sun's torque.",
         ),
         "transmission_error": entry(
-            (ANGLE,), lag - lag.mean(), "rad", "transmission error", "Transmission error",
+            (ANGLE,),
+            lag - lag.mean(),
+            "rad",
+            "transmission error",
+            "Transmission error",
             caption=f"{said.capitalize()}, less its mean over the pitch, the wind-up of {mean:.4g} arcmin.",
         ),
         "output_lag": entry((ANGLE,), lag, "rad", said),
         "torsional_stiffness": entry(
-            (ANGLE,), series.torsional_stiffness, "N*m/rad", "torsional stiffness", "Torsional stiffness",
+            (ANGLE,),
+            series.torsional_stiffness,
+            "N*m/rad",
+            "torsional stiffness",
+            "Torsional stiffness",
             caption="Torque per angle at the output with the input held: the tangent at the operating torque.",
         ),
         "planet_bearing_force": entry((*dims, "axis"), series.bearing, "N", "force on a planet's bearing"),
@@ -86,17 +104,40 @@ def _contact(stages: Stages) -> Entries:
         words = name.replace("_", " and ")
         made[f"{name}_force"] = entry((*dims, f"{name}_pair"), touches.force, "N", f"force on pairs, {words}")
         made[f"{name}_pressure"] = entry(
-            dims, touches.pressure.max(axis=2), "Pa", f"pressure, {words}", "Contact pressure", caption=pressure
+            dims,
+            touches.pressure.max(axis=2),
+            "Pa",
+            f"pressure, {words}",
+            "Contact pressure",
+            caption=pressure,
         )
     return made
 
 
+def _roots(stages: Stages) -> Entries:
+    found, caption = stages.roots.fine, "Largest tension in the fillets of the teeth that carry."
+    wheels = {"sun": found.sun, "planets": found.planet.max(axis=1), "ring": found.ring}
+    return {
+        f"root_stress_{name}": entry(
+            (ANGLE,), stress, "Pa", f"root stress, {name}", "Root stress", caption=caption
+        )
+        for name, stress in wheels.items()
+    }
+
+
 def _meshes(stages: Stages) -> Entries:
-    caption = "Normal force per approach of one planet's meshes, each by itself under an even share of the torque."
+    caption = (
+        "Normal force per approach of one planet's meshes, each by itself under an even share of the torque."
+    )
     found = stages.meshes.fine
     return {
         f"mesh_stiffness_{name}": entry(
-            ("base_pitch",), path.stiffness, "N/m", f"stiffness, {name.replace('_', ' and ')}", "Mesh stiffness", caption=caption
+            ("base_pitch",),
+            path.stiffness,
+            "N/m",
+            f"stiffness, {name.replace('_', ' and ')}",
+            "Mesh stiffness",
+            caption=caption,
         )
         for name, path in (("sun_planet", found.outer), ("planet_ring", found.inner))
     }
@@ -114,7 +155,9 @@ def _pairs(stages: Stages, angle: Array) -> Entries:
     counts = np.stack([place.touching.sum(axis=-1) for place in found], axis=1)
     caption = "Pairs of unloaded teeth on their path of contact in each mesh: the phases of the planets to each other."
     return {
-        "pairs_in_mesh": entry(("rolled_angle", "mesh", "planet"), counts, "", "pairs in mesh", PAIRS, caption=caption)
+        "pairs_in_mesh": entry(
+            ("rolled_angle", "mesh", "planet"), counts, "", "pairs in mesh", PAIRS, caption=caption
+        )
     }
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from trochoid.geometry.planetary import Planetary, PlanetarySet, planetary
-from trochoid.geometry.planetary_check import out_of_reach
+from trochoid.geometry.planetary_check import planetary_faults
 from trochoid.geometry.planetary_quality import Limits
 from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.involute_pair import mesh_at, needed_shift
@@ -81,7 +81,8 @@ def design(scene: PlanetaryScene) -> Design:
     try:
         pairs = [mesh_at(*gears, d.center_distance) for gears in ((sun, planet), (planet, ring))]
     except Infeasible as error:
-        raise Infeasible(out_of_reach(given, error)) from None
+        faults = planetary_faults(given, Limits(d.limits.tip_thickness, d.limits.contact_ratio))
+        raise Infeasible("\n".join(faults) or str(error)) from None
     sums = [float(needed_shift(pair)) for pair in pairs]
     x2 = sums[0] - d.x_sun if d.x_planet is None else d.x_planet
     x3 = sums[1] + x2 if d.x_ring is None else d.x_ring

@@ -21,7 +21,9 @@ NUMBERS: dict[str, Callable[[Series], float]] = {
     "the largest force of a pair in the ring": lambda s: float(s.ring.force.max()),
     "the largest pressure on the sun": lambda s: float(s.sun.pressure.max()),
     "the largest pressure in the ring": lambda s: float(s.ring.pressure.max()),
-    "the largest force on a planet's bearing": lambda s: float(np.hypot(*np.moveaxis(s.bearing, -1, 0)).max()),
+    "the largest force on a planet's bearing": lambda s: float(
+        np.hypot(*np.moveaxis(s.bearing, -1, 0)).max()
+    ),
 }
 
 
@@ -36,8 +38,9 @@ def worst_error(fine: Series, coarse: Series) -> tuple[float, str]:
 
 
 def model_error(level0: Series, strips: Series) -> float:
-    """Return the largest relative difference of level 0 from strips, the stiffness left out: that of strips moves as they
-    come into contact one by one.
+    """Return the largest relative difference of level 0 from strips.
+
+    The stiffness is left out: that of strips moves as they come into contact one by one.
     """
     found = differences(strips, level0)
     return max(size for name, size in found.items() if name != STIFFNESS)

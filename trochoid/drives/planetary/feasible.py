@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from trochoid.drives.planetary.design import Design
 from trochoid.geometry.planetary_check import planetary_faults
@@ -11,13 +12,22 @@ from trochoid.kinematics.errors import Infeasible
 
 
 def faults(design: Design) -> tuple[str, ...]:
-    """Return one sentence per fault: what was given, the limit, the nearest feasible value."""
-    found = planetary_faults(design.given, design.limits)
-    if found:
-        return found
-    found = _root_rounding(design) + _bodies(design)
+    """Return one sentence per fault: what was given, the limit, and what near it can be built."""
+    found = planetary_faults(
+        design.given, design.limits, lambda near: _around_teeth(replace(design, given=near))
+    )
+    return found or _around_teeth(design)
+
+
+def _around_teeth(design: Design) -> tuple[str, ...]:
+    """Return what is wrong with what the teeth are cut with and stand on."""
+    found = _root_rounding(design) + _bodies(design) + _floating(design)
     try:
-        members(design.given, design.rounding)
+        curves = members(design.given, design.rounding)
+        if design.scene.has("elastic_contact") and not found:
+            from trochoid.drives.planetary.blanks import blanks
+
+            blanks(design, curves)
     except Infeasible as error:
         found += (str(error),)
     return found
@@ -49,6 +59,23 @@ def _bodies(design: Design) -> tuple[str, ...]:
         *found,
         f"ring.outer_radius = {_mm(ring)}: nothing is left above the teeth; it must be more than the root radius "
         f"{_mm(float(roots[2]))}",
+    )
+
+
+def _floating(design: Design) -> tuple[str, ...]:
+    """Three planets centre what floats between them; one or two do not."""
+    d = design.drive
+    if d.planets >= 3 or not design.scene.has("bearing_compliance"):
+        return ()
+    members = {"sun": d.sun.bearing_stiffness, "carrier": d.carrier.bearing_stiffness}
+    if d.ring.held == "evenly":
+        members["ring"] = d.ring.bearing_stiffness
+    loose = [name for name, stiffness in members.items() if stiffness == 0.0]
+    planets = "1 planet" if d.planets == 1 else f"{d.planets} planets"
+    return tuple(
+        f"{name}.bearing_stiffness = 0: {planets} cannot centre a {name} that floats; take 3 or more, or a stiffness "
+        "above 0"
+        for name in loose
     )
 
 

@@ -9,8 +9,8 @@ from trochoid.scene.drive_planetary import PlanetaryScene
 
 ABSENT_EFFECTS = {
     "elastic_contact": (
-        "Teeth and bodies are rigid: there is no load sharing between pairs of teeth, no mesh stiffness, no pressure, and "
-        "the first and last contact of a pair are those of the unloaded flanks."
+        "Teeth and bodies are rigid: there is no load sharing between pairs of teeth, no mesh stiffness, no pressure, "
+        "and the first and last contact of a pair are those of the unloaded flanks."
     ),
     "bearing_compliance": (
         "Sun, carrier, ring and the planets' seats stay in their places: nothing floats, and errors load planets more "
@@ -26,8 +26,8 @@ NEVER_SIMULATED = {
     "load over the face width": (
         "Teeth carry evenly over the face width: misalignment and the twist of the wheels load one end more."
     ),
-    "elasticity of carrier and shafts": (
-        "Carrier, shafts and casing are rigid but for the springs of the scene: their own wind-up adds to the one here."
+    "elasticity of carrier, shafts and casing": (
+        "They are rigid but for the springs of the scene: what these leave out adds to the wind-up here."
     ),
     "bolts and feet of the ring": (
         "The ring's outer edge is fixed all round, or its torque is taken evenly: a ring held at a few places yields "

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from trochoid.drives.planetary import headline
-from trochoid.drives.planetary.plan import WHY
+from trochoid.drives.planetary.plan import ELASTIC, WHY
 from trochoid.drives.planetary.stages import Stages
 from trochoid.results.outcome import Check, Outcome, Quantity, Stage
 
@@ -16,11 +16,11 @@ NOTICED = 1e-8  # m of play that is worth a word
 
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but what the figures need."""
-    ran = tuple(stages.clock.seconds)
+    ran, elastic = tuple(stages.clock.seconds), stages.scene.has("elastic_contact")
     words = Outcome(
         scene=stages.scene.model_dump(mode="json"),
         quantities=quantities,
-        not_needed=tuple(name for name in WHY if name not in ran),
+        not_needed=tuple(name for name in WHY if name not in ran and (elastic or name not in ELASTIC)),
         title=headline.title(stages),
         facts=headline.facts(stages),
         not_simulated=headline.not_simulated(stages.scene),
@@ -109,6 +109,8 @@ def _unheeded(stages: Stages) -> Iterator[str]:
     """Yield what the scene gives and no listed effect heeds."""
     scene, d = stages.scene, stages.scene.drive
     if not scene.has("elastic_contact"):
+        if scene.accuracy != type(scene.accuracy)():
+            yield 'the table [accuracy] does nothing without the effect "elastic_contact": all answers are closed forms'
         return
     reliefs = (d.sun.tip_relief, d.planet.tip_relief, d.ring.tip_relief)
     for given, effect, what in (

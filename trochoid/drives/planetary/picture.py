@@ -124,4 +124,9 @@ def _pressed(stages: Stages, at: Poses, frame: int, position: int) -> Iterator[A
             yield Arrow(_xy(np.array(point)), _xy(np.array(push)), who, f"{who} on planet {i + 1}")
     for i, held in enumerate(series.bearing[position]):
         center = complex(*at.center[frame, i])
-        yield Arrow(_xy(np.array(center)), _xy(np.array(-complex(*held) * turn)), "carrier", f"carrier on planet {i + 1}")
+        yield Arrow(
+            _xy(np.array(center)),
+            _xy(np.array(-complex(*held) * turn)),
+            "carrier",
+            f"carrier on planet {i + 1}",
+        )

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from trochoid.drives.planetary.bodies import Level
-from trochoid.drives.planetary.contact import Layout, Load, assembly, centers, layout
+from trochoid.drives.planetary.contact import Layout, Load, assembly, centers, layout, twists
 from trochoid.drives.planetary.design import Design
 from trochoid.fem.assembly import Contact, Touch
 from trochoid.fem.position import solve_positions
@@ -50,7 +51,8 @@ class Touches:
 class Series:
     """Positions at input angles (n,) in rad over one pitch; `motion` (n, k) and `stiffness` (n, k, k) on `layout`.
 
-    `places` (N, 2) of the planets, `rounding` of the tip edges in m; `imbalance` and `penetration` are the largest relative residuals.
+    `places` (N, 2) of the planets, `rounding` of the tip edges in m; `twists` of shafts at the driven member in
+    rad/(N·m), which no contact feels; `imbalance` and `penetration` are the largest relative residuals.
     """
 
     rung: str
@@ -59,6 +61,7 @@ class Series:
     load: Load
     places: Array
     rounding: float
+    twists: Mapping[str, float]
     sun: Touches
     ring: Touches
     motion: Array
@@ -78,9 +81,10 @@ class Series:
 
     @property
     def lag(self) -> Array:
-        """Rotation (n,) of the driven member behind its ideal angle, rad."""
+        """Rotation (n,) of the driven member behind its ideal angle, rad, with the twist of shafts."""
         row = self.layout.names.index(f"{self.layout.driven}.rotation")
-        return np.asarray(np.sign(self.load.driven) * self.motion[:, row])
+        twist = sum(self.twists.values()) * abs(self.load.driven)
+        return np.asarray(np.sign(self.load.driven) * self.motion[:, row] + twist)
 
     @property
     def torsional_stiffness(self) -> Array:
@@ -88,10 +92,14 @@ class Series:
         row = self.layout.names.index(f"{self.layout.driven}.rotation")
         unit = np.zeros(len(self.layout.names))
         unit[row] = 1.0
-        size = np.sqrt(np.einsum("nkk->nk", self.stiffness))
-        unitless = self.stiffness / (size[:, :, None] * size[:, None])
-        answer = np.linalg.solve(unitless, (unit / size)[..., None])[..., 0]
-        return np.asarray(1.0 / (answer[:, row] / size[:, row]))
+        size = np.sqrt(np.maximum(np.einsum("nkk->nk", self.stiffness), 0.0))
+        scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0)
+        # a planet that nothing presses turns freely: its row is empty, and the least solution leaves it alone
+        unitless = self.stiffness * scale[:, :, None] * scale[:, None]
+        answer = np.linalg.pinv(unitless, rcond=1e-12, hermitian=True) @ (unit * scale)[..., None]
+        yields = answer[:, row, 0] * scale[:, row]
+        whole = yields + sum(self.twists.values())
+        return np.asarray(np.divide(1.0, whole, out=np.zeros_like(yields), where=yields > 0))
 
     @property
     def planet_torque(self) -> Array:
@@ -145,6 +153,7 @@ def solve_series(
         load,
         centers(design),
         level.wheels[0].flank.rounding,
+        twists(design),
         _gathered(sun, width),
         _gathered(ring, width),
         found.motion,

@@ -15,12 +15,13 @@ from trochoid.kinematics.train import Speeds, planetary_train, speeds
 from trochoid.scene.drive_planetary import PlanetaryScene
 
 if TYPE_CHECKING:
-    from trochoid.drives.planetary.bodies import Level
     from trochoid.drives.planetary.blocking import Blocking
-    from trochoid.drives.planetary.mass import Masses
+    from trochoid.drives.planetary.bodies import Level
     from trochoid.drives.planetary.contact import Load
+    from trochoid.drives.planetary.mass import Masses
     from trochoid.drives.planetary.meshes import Meshes
     from trochoid.drives.planetary.rigid import Rigid
+    from trochoid.drives.planetary.roots import Roots
     from trochoid.drives.planetary.series import Series
     from trochoid.geometry.planetary_curves import Members
 
@@ -149,8 +150,8 @@ class Stages:
         given = self.scene.accuracy.facets_per_lobe
         if given is not None and given < LEAST:
             raise SceneError(
-                f"accuracy.facets_per_lobe: given {given}; a flank of a planetary set needs at least {LEAST}, for half of "
-                "them tell the error"
+                f"accuracy.facets_per_lobe: given {given}; a flank of a planetary set needs at least {LEAST}, for half "
+                "of them tell the error"
             )
         return LEVELS if given is None else (given // 2, given)
 
@@ -171,6 +172,12 @@ class Stages:
                 built[facets] = self.level(facets)
             return built[facets]
 
+        if accuracy.facets_per_lobe is None:
+            try:
+                on(levels[0])
+            except NotConverged:  # too coarse for this ring's fillets
+                levels = levels[1:]
+
         def solve(rung: str, facets: int) -> Series:
             solved[facets] = self.series(on(facets), rung)
             return solved[facets]
@@ -185,7 +192,7 @@ class Stages:
         try:
             found = best(accuracy.model)
         except NotConverged as fault:
-            if accuracy.model is not None or fault.row is None and "accuracy.tolerance" in str(fault):
+            if accuracy.model is not None or (fault.row is None and "accuracy.tolerance" in str(fault)):
                 raise
             faults.append(str(fault))  # strips do not cover every relief; level 0 does, with an error unknown
             found = best("level0")
@@ -201,6 +208,18 @@ class Stages:
         return 0.0 if solved.coarse is None else max(differences(solved.fine, solved.coarse).values())
 
     @cached_property
+    def roots(self) -> Pair[Roots]:
+        """Tension in the fillets of the loaded teeth."""
+        solved = self.contact
+        with self.clock.stage("stress"):
+            from trochoid.drives.planetary.roots import roots
+
+            fine = roots(self.feasible, self.speeds, solved.level, solved.fine)
+            if solved.coarse is None or solved.coarse_level is None:
+                return Pair(fine, None)
+            return Pair(fine, roots(self.feasible, self.speeds, solved.coarse_level, solved.coarse))
+
+    @cached_property
     def meshes(self) -> Pair[Meshes]:
         """Each mesh of one planet by itself, under its even share of the torque."""
         solved, load = self.contact, self.load
@@ -210,4 +229,6 @@ class Stages:
             def made(level: Level) -> Meshes:
                 return meshes(self.feasible, level, load, self.scene.ask.positions)
 
-            return Pair(made(solved.level), None if solved.coarse_level is None else made(solved.coarse_level))
+            return Pair(
+                made(solved.level), None if solved.coarse_level is None else made(solved.coarse_level)
+            )

@@ -9,5 +9,6 @@ QUANTITIES = answers(
     {
         "answers_geometry": ("ratio", "member_speeds", "profile", "geometry_quality", "contact_ratio"),
         "answers_dynamics": ("reactions", "balance", "vibration_velocity", "vibration_zone", "mass"),
+        "answers_modes": ("natural_frequencies",),
     },
 )

@@ -19,6 +19,7 @@ STATISTICS: dict[str, Callable[[Array], float]] = {
     "min": lambda a: float(a.min()),
     "max": lambda a: float(a.max()),
 }
+LINES = ("couple_at_1", "couple_at_2q_minus_1", "couple_at_2q_plus_1", "couple_about_z_at_2q")  # q = z1/z2
 UNITS = dict.fromkeys(FORCES, "N") | dict.fromkeys(MOMENTS, "N*m")
 
 
@@ -32,10 +33,34 @@ def reactions(s: Stages) -> Quantity:
         }
         for model, turn in s.reactions.items()
     }
-    return Quantity(
-        parts=parts,
-        note="inertia forces alone, over 0 to 360 deg by 1 deg; rigid: Newton-Euler, printed: the paper's equations",
-    )
+    note = "inertia forces alone, over 0 to 360 deg by 1 deg; rigid: Newton-Euler, printed: the paper's equations"
+    if s.yielding is not None:
+        parts["change"] = changes(s)
+        note += "; elastic: with the inertia of members that yield; change: most of elastic less rigid, as vectors"
+    return Quantity(parts=parts, note=note)
+
+
+def changes(s: Stages) -> dict[str, Quantity]:
+    """Largest change over a turn of each reaction by the joints that yield."""
+    rigid, elastic = (s.reactions[model].over for model in ("rigid", "elastic"))
+    off = {name: elastic.vector(name) - rigid.vector(name) for name in UNITS}
+    sizes = {name: np.linalg.norm(values.reshape(len(values), -1), axis=1) for name, values in off.items()}
+    return {name: Quantity(float(size.max()), UNITS[name], None, "elastic") for name, size in sizes.items()}
+
+
+def most_changed(s: Stages) -> str:
+    """Say in a sentence which reaction the elastic joints change most."""
+    rigid = s.reactions["rigid"].sizes
+    off = {name: quantity.value for name, quantity in changes(s).items()}
+    part = {
+        name: value / float(np.abs(rigid[name]).max())
+        for name, value in off.items()
+        if isinstance(value, float) and np.abs(rigid[name]).max() > 0.0 and name != "M_3"
+    }
+    if not part:
+        return "No reaction changes."
+    name = max(part, key=lambda key: part[key])
+    return f"Most changed is {name}: by up to {100.0 * part[name]:.3g} % of its largest rigid value."
 
 
 def _settled(value: float, values: Array) -> float:
@@ -74,9 +99,12 @@ def balance(s: Stages) -> Quantity:
             name: _one(1e3 * balance_plane(drive, model), "mm", name) for name, model in MODELS.items()
         }
         parts["plane_given"] = _one(1e3 * drive.counterweight.z, "mm")
-    for line in couple_lines(drive, speed):
-        where = "about_z" if line.axis == "z" else "forward" if line.order > 0 else "backward"
-        parts[f"couple_{where}_at_{abs(line.order)}_of_input_speed"] = _one(line.couple, "N*m")
+    for name, line in zip(LINES, couple_lines(drive, speed), strict=True):
+        how = (
+            "swings about z" if line.axis == "z" else "turns forward" if line.order > 0 else "turns backward"
+        )
+        note = f"{how} at {abs(line.order)} of the input speed"
+        parts[name] = Quantity(line.couple, "N*m", 0.0, "exact", note=note)
     parts["couple_never_balanced"] = _one(remaining_couple(drive, speed), "N*m")
     return Quantity(parts=parts, note="planes from O; couples about O in the fixed frame, amplitudes")
 
@@ -86,14 +114,15 @@ def _one(value: float, unit: str, model: str = "exact") -> Quantity:
 
 
 def vibration_velocity(s: Stages) -> Quantity:
-    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; the printed model's worst one beside it."""
+    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; the worst one of other models beside it."""
     found = s.vibration
-    rigid, printed = found.models["rigid"], found.models["printed"]
+    best = found.models[found.best]
     parts: dict[str, Mapping[str, Quantity]] = {}
-    for i, point in enumerate(rigid.points):
-        entries = {axis: _velocity(rigid, i, j) for j, axis in enumerate("xyz")}
-        entries["worst"] = _velocity(rigid, i)
-        entries["worst_printed"] = _velocity(printed, i, model="printed")
+    for i, point in enumerate(best.points):
+        entries = {axis: _velocity(best, i, j, found.best) for j, axis in enumerate("xyz")}
+        entries["worst"] = _velocity(best, i, model=found.best)
+        others = [model for model in found.models if model != found.best]
+        entries |= {f"worst_{model}": _velocity(found.models[model], i, model=model) for model in others}
         parts[point.name] = entries
     return Quantity(
         parts=parts, note="by the vector sum of all reactions on the casing; all its lines are resolved"

@@ -68,13 +68,13 @@ def profile(s: Stages) -> Quantity:
 
 def geometry_quality(s: Stages) -> Quantity:
     """Margins of the geometry: what is left before the teeth cannot be made."""
-    from trochoid.kinematics.sphere_tooth_checks import largest_nutation, overlap_angle
+    from trochoid.kinematics.sphere_tooth_checks import largest_nutation, nutation_limit, overlap_angle
     from trochoid.kinematics.sphere_tooth_clearance import clear_pin_angle
 
     tooth = s.feasible.tooth
     if tooth is None or s.penetration is None:
         return NO_TEETH
-    clear, overlap, most = clear_pin_angle(tooth), overlap_angle(tooth), largest_nutation(tooth)
+    clear, overlap, most = clear_pin_angle(tooth), overlap_angle(tooth), nutation_limit(tooth)
     margins = exact(
         {
             "undercut_margin": (math.degrees(clear - tooth.pin_angle), "deg"),
@@ -82,6 +82,7 @@ def geometry_quality(s: Stages) -> Quantity:
             "gap_between_pins": (math.degrees(2.0 * (overlap - tooth.pin_angle)), "deg"),
             "nutation_margin": (math.degrees(most - tooth.nutation), "deg"),
             "largest_nutation": (math.degrees(most), "deg"),
+            "largest_nutation_of_any_pin": (math.degrees(largest_nutation(tooth)), "deg"),
         }
     )
     found = {"penetration": Quantity(max(s.penetration, 0.0), "rad", None, "brute force")}

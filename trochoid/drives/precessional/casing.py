@@ -29,7 +29,8 @@ def casing_load(found: Reactions) -> Wrench:
     """
     fixed = rotation(2, found.crank)
     points = np.array([[0.0, 0.0, found.drive.support], [0.0, 0.0, 0.0]])
-    forces = -np.stack((found.support, found.joint_o + found.mesh), axis=1)
+    output = found.joint_o if found.output is None else found.output
+    forces = -np.stack((found.support, output + found.mesh), axis=1)
     axial = np.stack((0.0 * found.torque, 0.0 * found.torque, found.torque), axis=-1)
     moments = -(found.support_moment + found.mesh_couple + axial)
     return total(
@@ -73,9 +74,13 @@ def casing_vibration(
     points: Sequence[Point],
     model: Model = "exact",
     band: tuple[float, float] = BAND,
+    found: Reactions | None = None,
 ) -> Vibration:
-    """Vibration of the rigid casing (centre from O) at the constant speed ω_3 (rad/s) of the input shaft."""
-    found = reactions(drive, closed_record(drive), speed, model)
+    """Vibration of the rigid casing (centre from O) at the constant speed ω_3 (rad/s) of the input shaft.
+
+    `found`: reactions over `closed_record` by another model.
+    """
+    found = reactions(drive, closed_record(drive), speed, model) if found is None else found
     base = speed / (2.0 * math.pi * drive.nutation.closing_turns)
     vibration = vibrate(casing, casing_load(found), base, points, band)
     return replace(vibration, warnings=())  # these loads have three lines, all of them resolved

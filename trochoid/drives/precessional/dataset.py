@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from trochoid.drives.entries import ANGLE, Entries, Entry, entry, named
 from trochoid.drives.precessional.stages import Stages
-from trochoid.drives.precessional.turn import FORCES, HARMONICS, MODELS
+from trochoid.drives.precessional.turn import FORCES, HARMONICS
 from trochoid.dynamics.spectrum import harmonics
 from trochoid.kinematics.sphere_tooth import SphereTooth
 from trochoid.kinematics.types import Array
@@ -25,9 +25,10 @@ COUPLE, VELOCITY = "Load on the casing", "Vibration velocity"
 PER_LOBE = 40  # points of the profile
 CAPTIONS = {
     FORCE: "Size of the forces in the bearing A of the satellite, the support B and the joint O: rigid by Newton and "
-    "Euler, printed by the paper's equations. Under static balance the forces in B and O are alike.",
+    "Euler, printed by the paper's equations, elastic on joints that yield. Under static balance the rigid forces in B "
+    "and O are alike.",
     MOMENT: "Size of the moment M_B in the support B.",
-    TORQUE: "Torque M_3 that the motor must give to keep the input speed even; both models give the same.",
+    TORQUE: "Torque M_3 that the motor must give to keep the input speed even; rigid and printed are the same.",
     LINES: "Amplitudes of the sizes above, at multiples of twice the tooth ratio times the input speed.",
     COUPLE: "Amplitudes in the fixed frame of what all members together put on the casing, about O.",
     VELOCITY: "Amplitude of the casing's velocity by the vector sum of all reactions on it.",
@@ -93,10 +94,10 @@ def _angles(stages: Stages) -> Array:
 
 
 def _reactions(stages: Stages) -> Entries:
-    from trochoid.drives.precessional.reactions import reactions
+    from trochoid.drives.precessional.turn import models
 
     drive, speed, angle = stages.mechanism, stages.design.speed, _angles(stages)
-    found = {name: reactions(drive, angle, speed, model) for name, model in MODELS.items()}
+    found = {name: at(angle) for name, at in models(drive, speed, stages.elastic).items()}
     made: Entries = {}
     for name, each in found.items():
         size = np.stack([each.magnitude(key) for key in FORCES], axis=1)
@@ -147,7 +148,7 @@ def _vibration(stages: Stages) -> Entries:
     made: Entries = {}
     for name, each in found.models.items():
         lines = np.moveaxis(each.velocity, -1, 0)
-        figure = {"figure": VELOCITY} if name == "rigid" else {}
+        figure = {"figure": VELOCITY} if name == found.best else {}
         made[f"vibration_velocity_{name}"] = _entry(
             dims, lines, "m/s", f"velocity, {name}", **figure, scale="log"
         )

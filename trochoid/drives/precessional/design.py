@@ -60,6 +60,20 @@ class Design:
         along = self.instantaneous_axis
         return self.nutation.pitch_angle, float(np.arccos(np.clip(along @ self.nutation.axis, -1.0, 1.0)))
 
+    @property
+    def shaft_shape(self) -> tuple[float, float, float]:
+        """Place of the input shaft's centre of mass on z (m), moments of inertia across and about it (kg·m²).
+
+        Where the scene does not give them: those of a solid cylinder from A to B, a third as thick as it is long.
+        """
+        d = self.scene.drive
+        shaft, near = d.input_shaft, d.satellite.bearing_distance * math.cos(self.nutation.angle)
+        long = abs(shaft.bearing_distance - near) or near
+        thick = long / 3.0
+        center = 0.5 * (near + shaft.bearing_distance) if shaft.center is None else shaft.center
+        solid = (shaft.mass * (long**2 / 12.0 + thick**2 / 16.0), shaft.mass * thick**2 / 8.0)
+        return center, *(solid if shaft.inertia is None else shaft.inertia)
+
     @cached_property
     def mechanism(self) -> PrecessionalDrive:
         """Masses and places; a counterweight without a radius gets that of static balance."""

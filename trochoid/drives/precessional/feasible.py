@@ -38,7 +38,7 @@ def _other_arrangements(design: Design) -> tuple[str, ...]:
             )
             if other != design.tooth and other.pin_angle < pin_limit(other):
                 found.append(f'pins_on = "{pins_on}" with lobed_member = "{lobed}"')
-    return (f"with these angles can be made: {'; '.join(found)}",) if found else ()
+    return (f"these angles can be kept with {', or '.join(found)}",) if found else ()
 
 
 def _proposal(tooth: SphereTooth) -> str:

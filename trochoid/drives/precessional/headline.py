@@ -11,6 +11,10 @@ from trochoid.scene.drive_precessional import PrecessionalScene
 
 ABSENT_EFFECTS = {
     "inertia": "No member has mass in the equations: there are no reactions and there is no vibration.",
+    "bearing_compliance": (
+        "All members and joints are rigid: no elastic motion feeds back into the reactions, and the only natural modes "
+        "are those of the casing on its mounts."
+    ),
     "casing_on_mounts": "The casing stands still: there is no vibration velocity and no zone to judge it by.",
 }
 
@@ -25,19 +29,36 @@ NEVER_SIMULATED = {
     ),
     "friction": "Teeth, joints and bearings have no friction: no losses and no efficiency.",
     "clearance": "Teeth and bearings fit without play: no lost motion, no shocks on reversal.",
-    "elasticity of shafts, bearings and casing": (
-        "All members are rigid: no natural modes but those of the casing on its mounts."
+    "elasticity of shafts, teeth and casing": (
+        "Members are rigid bodies, and the teeth do not yield: only the joints A, B, O, C and the mounts have springs."
     ),
     "uneven output": "The joint at O is a constant-velocity one that gives way along z: it holds the satellite "
     "without a moment across its axis.",
     "manufacturing errors": "Pins and lobes are alike and in place.",
 }
 
+ELASTIC = (
+    "Elastic: the small motion of satellite and shafts on their joints about the steady nutation, with gyroscopic and "
+    "centrifugal terms, driven by the exact rigid loads; its inertia adds to the reactions, and with stiffnesses that "
+    "grow nothing of it is left. The casing stands still in it. Taken as constant: the satellite's inertia (its mean "
+    "about OA) and the bearings' stiffness under the mean load; what steady loads add to stiffnesses is left out."
+)
+
 MODELS = (
     "Rigid: Newton's and Euler's equations of all members, with a tooth force that does no work. Printed: the "
     "equations as the paper has them, which leave out the gyroscopic terms of the satellite and the tooth force. "
     "Forces of A, B and O are in the frame of the input shaft."
 )
+
+
+def notes(stages: Stages) -> dict[str, str]:
+    """Say what the models of the reactions are."""
+    said = {"Rigid and printed reactions": MODELS}
+    if stages.elastic is None:
+        return said
+    from trochoid.drives.precessional.answers_dynamics import most_changed
+
+    return said | {"Elastic reactions": f"{ELASTIC} {most_changed(stages)}"}
 
 
 def title(stages: Stages) -> str:

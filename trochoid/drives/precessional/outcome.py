@@ -12,6 +12,7 @@ from trochoid.drives.precessional.stages import Stages
 from trochoid.results.outcome import Check, Outcome, Quantity, Stage
 
 BALANCE = 1e-9
+ENERGY = 1e-6
 PENETRATION = 1e-12  # rad
 
 
@@ -28,8 +29,8 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
         not_simulated=headline.not_simulated(stages.scene),
     )
     if "reactions" in ran:
-        words = replace(words, notes={"Rigid and printed reactions": headline.MODELS})
-    if {"penetration", "reactions", "vibration"} & set(ran) or "profile" in quantities:
+        words = replace(words, notes=headline.notes(stages))
+    if {"penetration", "reactions", "vibration", "modes"} & set(ran) or "profile" in quantities:
         words = replace(words, **_pictures(stages, ran, "profile" in quantities))
     seconds = stages.clock.seconds
     return replace(words, stages=tuple(Stage(name, seconds[name]) for name in seconds))
@@ -43,7 +44,8 @@ def _pictures(stages: Stages, ran: tuple[str, ...], profile: bool) -> dict[str, 
 
         tooth = stages.design.tooth
         maps = () if tooth is None or "penetration" not in ran else (undercut_map(tooth),)
-        return {"dataset": dataset(stages, ran, profile), "plots": (space(stages.design), *maps)}
+        campbell = (stages.modes.campbell,) if "modes" in ran else ()
+        return {"dataset": dataset(stages, ran, profile), "plots": (space(stages.design), *maps, *campbell)}
 
 
 def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
@@ -58,6 +60,14 @@ def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
 
         off = residual(stages.mechanism, stages.design.speed, stages.reactions["rigid"])
         found.append(_check("rigid reactions on the casing sum to the members' inertia", off, BALANCE))
+    if "reactions" in ran and stages.elastic is not None:
+        from trochoid.drives.precessional.turn import elastic_residual
+
+        moved = stages.elastic
+        off = elastic_residual(stages.reactions["elastic"], moved)
+        found.append(_check("elastic reactions on the casing sum to the members' inertia", off, BALANCE))
+        unmet = abs(moved.power - moved.loss) / moved.loss if moved.loss > 0.0 else 0.0
+        found.append(_check("work on the elastic motion is what damping takes", unmet, ENERGY))
     return tuple(found)
 
 

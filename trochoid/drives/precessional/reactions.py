@@ -27,7 +27,7 @@ from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.spherical import rotation, turn
 from trochoid.kinematics.types import Array, frozen
 
-Model = Literal["exact", "printed"]
+Model = Literal["exact", "printed", "elastic"]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -36,7 +36,8 @@ class Reactions:
 
     `joint_a` and `joint_o` act on the satellite, from the shaft and from the output shaft; `support` and
     `support_moment` (n, 3), N·m, on the shaft, from the casing; `torque` (n,) on it from the motor; `mesh` and
-    `mesh_couple` (n, 3), about O, on the satellite from the fixed wheel: both 0 in the printed model.
+    `mesh_couple` (n, 3), about O, on the satellite from the fixed wheel: both 0 in the printed model.  `output` is
+    what the bearings C give the output shaft, `joint_o` where that has no motion of its own.
     """
 
     drive: PrecessionalDrive
@@ -50,21 +51,28 @@ class Reactions:
     torque: Array
     mesh: Array
     mesh_couple: Array
+    output: Array | None = None
 
     def magnitude(self, name: str) -> Array:
         """R_A, R_B, R_O in N, M_B and M_3 in N·m, (n,): (25), (26) with M_B = √(M_Bx² + M_By²); M_3 has its sign."""
+        vector = self.vector(name)
+        if vector.ndim == 1:
+            return vector
+        size: Array = np.linalg.norm(vector, axis=1)
+        return size
+
+    def vector(self, name: str) -> Array:
+        """R_A, R_B, R_O, M_B (n, 3), M_3 (n,)."""
         vectors = {
             "R_A": self.joint_a,
             "R_B": self.support,
             "R_O": self.joint_o,
             "M_B": self.support_moment,
+            "M_3": self.torque,
         }
-        if name == "M_3":
-            return self.torque
         if name not in vectors:
-            raise TrochoidError(f"no reaction {name!r}: take one of {', '.join([*vectors, 'M_3'])}")
-        size: Array = np.linalg.norm(vectors[name], axis=1)
-        return size
+            raise TrochoidError(f"no reaction {name!r}: take one of {', '.join(vectors)}")
+        return vectors[name]
 
 
 def inertia_couple(

@@ -13,9 +13,12 @@ from trochoid.kinematics.errors import Infeasible
 from trochoid.scene.drive_precessional import PrecessionalScene
 
 if TYPE_CHECKING:
+    from trochoid.drives.precessional.elastic import Elastic
     from trochoid.drives.precessional.mechanism import PrecessionalDrive
+    from trochoid.drives.precessional.modes import NaturalModes
     from trochoid.drives.precessional.turn import Turn
     from trochoid.drives.precessional.vibration import CasingVibration
+    from trochoid.drives.precessional.yielding import Yielding
 
 
 @dataclass(frozen=True)
@@ -60,19 +63,44 @@ class Stages:
             return None if tooth is None else penetration(tooth)
 
     @cached_property
-    def reactions(self) -> Mapping[str, Turn]:
-        """Reactions over a turn, by the models "rigid" and "printed"."""
+    def yielding(self) -> Yielding | None:
+        """Joints that yield and the steady motion on them; None where the scene has none."""
+        if not self.scene.has("bearing_compliance"):
+            return None
         drive, made = self.mechanism, self.design
+        with self.clock.stage("elastic"):
+            from trochoid.drives.precessional.yielding import yielding
+
+            return yielding(made, drive)
+
+    @property
+    def elastic(self) -> Elastic | None:
+        """Steady motion of the yielding members; None where nothing yields."""
+        return None if self.yielding is None else self.yielding.elastic
+
+    @cached_property
+    def reactions(self) -> Mapping[str, Turn]:
+        """Reactions over a turn, by the models "rigid" and "printed", and "elastic" with yielding joints."""
+        drive, made, elastic = self.mechanism, self.design, self.elastic
         with self.clock.stage("reactions"):
             from trochoid.drives.precessional.turn import turns
 
-            return turns(drive, made.speed)
+            return turns(drive, made.speed, elastic)
+
+    @cached_property
+    def modes(self) -> NaturalModes:
+        """Natural frequencies of the members on their joints, and of the casing on its mounts with them."""
+        drive, made, held = self.mechanism, self.design, self.yielding
+        with self.clock.stage("modes"):
+            from trochoid.drives.precessional.modes import natural_modes
+
+            return natural_modes(made, drive, held)
 
     @cached_property
     def vibration(self) -> CasingVibration:
         """Vibration velocity of the casing and its zone."""
-        drive, made = self.mechanism, self.design
+        drive, made, elastic = self.mechanism, self.design, self.elastic
         with self.clock.stage("vibration"):
             from trochoid.drives.precessional.vibration import vibration
 
-            return vibration(made, drive)
+            return vibration(made, drive, elastic)

@@ -1,17 +1,20 @@
-"""Reactions over a turn of the input shaft by both models: extremes, means, harmonics, and their check."""
+"""Reactions over a turn of the input shaft by all models: extremes, means, harmonics, and their check."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from trochoid.drives.precessional.casing import casing_load, closed_record, inertia_load
+from trochoid.drives.precessional.elastic import Elastic
 from trochoid.drives.precessional.mechanism import PrecessionalDrive
 from trochoid.drives.precessional.reactions import Model, Reactions, reactions
 from trochoid.dynamics.spectrum import harmonics
 from trochoid.dynamics.wrench import Wrench
+from trochoid.kinematics.spherical import rotation
+from trochoid.kinematics.spherical import turn as rotated
 from trochoid.kinematics.types import Array, frozen
 
 MODELS: Mapping[str, Model] = {"rigid": "exact", "printed": "printed"}  # name in results -> model
@@ -35,19 +38,31 @@ class Turn:
     load: Wrench
 
 
-def turns(drive: PrecessionalDrive, speed: float) -> dict[str, Turn]:
+def models(
+    drive: PrecessionalDrive, speed: float, elastic: Elastic | None = None
+) -> dict[str, Callable[[Array], Reactions]]:
+    """Return what gives the reactions at shaft angles, by the model's name: "elastic" where joints yield."""
+
+    def rigid(model: Model) -> Callable[[Array], Reactions]:
+        return lambda crank: reactions(drive, crank, speed, model)
+
+    found = {name: rigid(model) for name, model in MODELS.items()}
+    return found if elastic is None else found | {"elastic": elastic.reactions}
+
+
+def turns(drive: PrecessionalDrive, speed: float, elastic: Elastic | None = None) -> dict[str, Turn]:
     """Return the reactions by each model, at the constant speed ω_3 (rad/s) of the shaft."""
     angle = np.linspace(0.0, 2.0 * np.pi, STEPS)
     crank = closed_record(drive)
     period = drive.reaction_period * np.arange(4 * HARMONICS) / (4 * HARMONICS)
     made = {}
-    for name, model in MODELS.items():
-        over, once = (reactions(drive, a, speed, model) for a in (angle, period))
+    for name, at in models(drive, speed, elastic).items():
+        over, once = at(angle), at(period)
         sizes = {key: over.magnitude(key) for key in FORCES + MOMENTS}
         lines = {
             key: frozen(np.abs(harmonics(once.magnitude(key))[1 : HARMONICS + 1])) for key in FORCES + MOMENTS
         }
-        made[name] = Turn(over, sizes, lines, crank, casing_load(reactions(drive, crank, speed, model)))
+        made[name] = Turn(over, sizes, lines, crank, casing_load(at(crank)))
     return made
 
 
@@ -63,3 +78,16 @@ def residual(drive: PrecessionalDrive, speed: float, turn: Turn) -> float:
         return 0.0
     off = np.abs(turn.load.force - inertia.force).max() / forces
     return float(max(off, np.abs(turn.load.moment - inertia.moment).max() / size))
+
+
+def elastic_residual(turn: Turn, elastic: Elastic) -> float:
+    """Load on the casing less the inertia of all members on their yielding paths, as `residual` has it."""
+    fixed = rotation(2, turn.crank)
+    more = rotated(fixed, elastic.at(elastic.inertia, turn.crank).reshape(-1, 2, 3).swapaxes(0, 1))
+    inertia = inertia_load(elastic.drive, turn.crank, elastic.speed)
+    forces = max(float(np.abs(turn.sizes[key]).max()) for key in FORCES)
+    size = max(forces * elastic.drive.joint, *(float(np.abs(turn.sizes[key]).max()) for key in MOMENTS))
+    if forces == 0.0 or size == 0.0:
+        return 0.0
+    off = np.abs(turn.load.force - inertia.force - more[0]).max() / forces
+    return float(max(off, np.abs(turn.load.moment - inertia.moment - more[1]).max() / size))

@@ -25,6 +25,8 @@ QUANTITIES = answers(
             "torsional_stiffness",
             "stiffness_breakdown",
             "lost_motion",
+            "efficiency",
+            "power_loss",
             "bearing_loads",
         ),
     },

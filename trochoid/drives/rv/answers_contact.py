@@ -16,6 +16,7 @@ from trochoid.results.outcome import Parts, Quantity
 
 if TYPE_CHECKING:
     from trochoid.drives.rv.reversal import Reversal
+    from trochoid.drives.rv.running import Running
     from trochoid.drives.rv.series import Series, Touches
     from trochoid.drives.rv.teeth import Teeth
 
@@ -101,11 +102,23 @@ def bearing_loads(s: Stages) -> Quantity:
     parts["arm_mean"] = over_turn(s, lambda x: float(_arm(x).mean()), "N")
     parts["arm_max"] = over_turn(s, lambda x: float(_arm(x).max()), "N")
     parts["arm_roller_max"] = over_turn(s, lambda x: float(x.arm.force.max()), "N")
-    note = "over all crankshafts and a turn of them; A at the lower z"
+    parts["main_force_max"] = over_turn(s, lambda x: _largest_of(_on_carrier(s, x)[0]), "N")
+    parts["main_moment_max"] = over_turn(s, lambda x: _largest_of(_on_carrier(s, x)[1]), "N*m")
+    note = "over all crankshafts and a turn of them, A at the lower z; main: what the carrier passes on to its bearings"
     if _rigid(s):
         note = "what rigid crank bearings carry is not determined; list bearing_compliance"
         parts = {name: part for name, part in parts.items() if name.startswith("arm")}
     return Quantity(parts=parts, note=note)
+
+
+def _on_carrier(s: Stages, series: Series) -> tuple[Array, Array]:
+    """Force (n, 2) of all crankshafts on the carrier, N, and the vector (n, 2) Σ z F of their tilting moment, N·m."""
+    force = series.bearing_force.sum(axis=1)
+    return force.sum(axis=1), np.einsum("b,nbx->nx", s.scene.drive.crankshaft.bearing_positions, force)
+
+
+def _largest_of(vectors: Array) -> float:
+    return float(np.linalg.norm(vectors, axis=-1).max())
 
 
 def _crank(series: Series) -> Array:
@@ -174,9 +187,9 @@ def stiffness_breakdown(s: Stages) -> Quantity:
         }
     parts["total"] = {
         "compliance": over_turn(s, lambda x: scale * float(x.compliance.mean()), "arcmin/(kN*m)"),
-        "stiffness": torsional_stiffness(s),
+        "share": Quantity(100.0, "%", None, s.rung),
     }
-    return Quantity(parts=parts, note="compliances of the parts add up to the total")
+    return Quantity(parts=parts, note="at the driven member; the parts add up to the total")
 
 
 def mesh_stiffness(s: Stages) -> Quantity:
@@ -223,3 +236,36 @@ def lost_motion(s: Stages) -> Quantity:
         },
         note="without friction; over held angles of a turn of the crankshafts",
     )
+
+
+def efficiency(s: Stages) -> Quantity:
+    """Output power over input power, mean over a turn of the crankshafts: what pins and teeth leave."""
+    given = s.scene.operation.output_torque / abs(
+        float(s.design.speeds.ratio)
+    )  # work per radian of the input
+    note = "friction at ring pins and teeth; without bearings, seals and oil"
+    answer = _of_losses(s, lambda x: given / (given + _lost(s, x.pins.sum(axis=1) + x.teeth)), "")
+    return Quantity(answer.value, "", answer.error, answer.model, note=note)
+
+
+def power_loss(s: Stages) -> Quantity:
+    """Power lost at ring pins and at the teeth of sun and planets, mean over a turn of the crankshafts."""
+    speed = s.scene.operation.input_speed
+    return Quantity(
+        parts={
+            "ring_pins": _of_losses(s, lambda x: speed * _lost(s, x.pins.sum(axis=1)), "W"),
+            "teeth": _of_losses(s, lambda x: speed * _lost(s, x.teeth), "W"),
+            "total": _of_losses(s, lambda x: speed * _lost(s, x.pins.sum(axis=1) + x.teeth), "W"),
+        }
+    )
+
+
+def _lost(s: Stages, per_crank: Array) -> float:
+    """Mean loss per radian of the input, from that per radian of the crankshafts."""
+    return abs(s.design.turning) * float(per_crank.mean())
+
+
+def _of_losses(s: Stages, get: Callable[[Running], float], unit: str) -> Quantity:
+    both = s.losses.map(get)
+    coarse = both.fine if both.coarse is None else both.coarse
+    return Quantity(both.fine, unit, scalar_error(both.fine, coarse), s.rung)

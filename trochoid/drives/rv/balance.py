@@ -101,10 +101,10 @@ def power(design: Design, series: Series) -> tuple[Array, Array, Array]:
         swing = np.stack([-out[:, 1], out[:, 0]], axis=-1)[:, None]
         groups = _on_disc(series, i)
         push, point = groups[0]
-        stored += (push * (swing - float(turn) * _across(point))).sum(axis=(1, 2))
+        stored += (push * (swing - float(turn) * across(point))).sum(axis=(1, 2))
         for j, (push, point) in enumerate(groups[1:]):
             axis = design.crank_places[j] + series.motion @ series.motions.crank(j, i)[:2].T
-            stored += (push * (swing - _across(point - axis[:, None]))).sum(axis=(1, 2))
+            stored += (push * (swing - across(point - axis[:, None]))).sum(axis=(1, 2))
     return sun, ring, stored
 
 
@@ -115,7 +115,7 @@ def power_residual(design: Design, series: Series) -> float:
     return float(np.abs((sun + ring - stored) / np.where(size > 0, size, 1.0)).max())
 
 
-def _across(vectors: Array) -> Array:
+def across(vectors: Array) -> Array:
     """Return vectors (…, 2) turned by +90°."""
     return np.stack([-vectors[..., 1], vectors[..., 0]], axis=-1)
 

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from trochoid.drives.disc_pack import circle
-from trochoid.drives.roller_seat import RollerSeat, round_side
 from trochoid.drives.rv.design import Design
 from trochoid.drives.rv.supports import Supports, material, supports
 from trochoid.fem.bearing import EXPONENT
@@ -21,6 +20,7 @@ from trochoid.fem.material import Plane
 from trochoid.fem.pair import FlankPair, HolePair, Member, Seat
 from trochoid.fem.position import Assembly, ElasticBody, Family
 from trochoid.fem.rows import Shared
+from trochoid.fem.seat_law import RollerSeat, round_side
 from trochoid.kinematics.types import Array
 
 RING = "ring.rotation"

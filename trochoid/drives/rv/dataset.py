@@ -37,7 +37,7 @@ CAPTIONS = {
     STIFFNESS: "Torque per angle at the output with the input held: the tangent at the operating torque.",
     LINES: "Amplitude over the order, in multiples of the input speed; the crankshafts turn once in each.",
     TEETH: "One mesh of sun and planet over a base pitch, along the line of action.",
-    YIELDING: "Angle of the output per torque, split among the parts; they add up to the whole.",
+    YIELDING: "Share of each part in the angle of the output per torque.",
 }
 PART_WORDS = {
     "ring_pins": "ring pins",
@@ -167,7 +167,14 @@ def _output(stages: Stages) -> Entries:
     parts = series.parts / share**2
     return {
         "torsional_stiffness": _shown((ANGLE,), stiffness, "N*m/rad", "torsional stiffness", STIFFNESS),
-        "compliance_parts": _shown((ANGLE, "part"), parts, "rad/(N*m)", "compliance", YIELDING),
+        "compliance_parts": entry((ANGLE, "part"), parts, "rad/(N*m)", "compliance of each part"),
+        "compliance_shares": _shown(
+            (ANGLE, "part"),
+            series.parts / series.compliance[:, None],
+            "",
+            "share of the compliance",
+            YIELDING,
+        ),
         "transmission_error": entry(
             (ANGLE,), lag - mean, "rad", "transmission error", ERROR, caption=caption
         ),

@@ -22,9 +22,14 @@ ABSENT_EFFECTS = {
         "too stiff."
     ),
     "inertia": "No member has mass in the equations: forces are those of a drive that creeps.",
+    "friction": "Flanks and teeth slide without losses: there is no efficiency.",
 }
 NEVER_SIMULATED = {
-    "friction": "Nothing is lost: there is no efficiency, and no hysteresis in the lost motion.",
+    "friction of bearings, seals and oil": (
+        "Rolling bearings, seals and oil take nothing: a real drive loses more, most of all at low torque. Where "
+        "friction is listed it is in the efficiency and the losses; all other answers are those of normal forces, the "
+        "lost motion without hysteresis."
+    ),
     "carrier, ring and main bearings": (
         "They are rigid: a real carrier twists between its plates, its main bearings tilt, a thin ring gives way under "
         "its pins. All that makes a drive softer than computed here."

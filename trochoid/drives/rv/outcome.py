@@ -58,6 +58,8 @@ def checks(stages: Stages) -> tuple[Check, ...]:
             BALANCE,
         ),
     }
+    if "losses" in stages.clock.seconds:
+        found["sun and ring give what is stored and lost"] = (stages.losses.fine.residual, BALANCE)
     if not np.isnan(split).any():
         found["compliances of the parts add up to the whole"] = (float(split.max()), SUM)
     return tuple(Check(name, value, limit, bool(value <= limit)) for name, (value, limit) in found.items())

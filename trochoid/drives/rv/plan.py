@@ -26,6 +26,8 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "torsional_stiffness": _CONTACT,
     "stiffness_breakdown": _CONTACT,
     "lost_motion": (*_CONTACT, "reversal"),
+    "efficiency": (*_CONTACT, "losses"),
+    "power_loss": (*_CONTACT, "losses"),
     "bearing_loads": _CONTACT,
     "balance": (*_GEOMETRY, "mass"),
     "mass": (*_GEOMETRY, "mass"),
@@ -39,6 +41,7 @@ WHY = {
     "teeth": "stiffness of sun and planet over a base pitch",
     "bodies": "factor of each distinct disc, its compliance at every facet",
     "contact": "all contacts together over a turn of the crankshafts, on both levels",
+    "losses": "the running drive with friction, at a few angles",
     "reversal": "twist under a small torque to either side, at a few angles",
 }
 
@@ -71,5 +74,6 @@ def _seconds(scene: RvScene) -> dict[str, float]:
         "teeth": 8e-3 * (f.z_sun + f.z_planet) + 0.3,
         "bodies": len(made.hole_angles) * (4e-3 * stations + 0.5e-6 * stations**2),
         "contact": 1.25 * positions * slower * contacts**1.5 * 0.013,
+        "losses": 2.5 * contacts,
         "reversal": 0.8 * contacts,
     }

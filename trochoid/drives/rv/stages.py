@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from trochoid.drives.rv.bodies import Level
     from trochoid.drives.rv.mass import Masses
     from trochoid.drives.rv.reversal import Reversal
+    from trochoid.drives.rv.running import Running
     from trochoid.drives.rv.series import Series
     from trochoid.drives.rv.teeth import Teeth
     from trochoid.geometry.mesh import Mesh
@@ -95,6 +96,10 @@ class Stages:
             facets *= 2
         return facets, None
 
+    def first_given(self, given: int) -> int:
+        """Return the level that tells the error of the facets per lobe that a scene names."""
+        return max(3, given // 2)
+
     def level(self, facets: int, made: tuple[Mesh, ...] | None = None) -> Level:
         """Build the discs on one mesh level, of which the meshes may be there already."""
         meshes = self.meshes(facets) if made is None else made
@@ -140,7 +145,7 @@ class Stages:
 
         accuracy = self.scene.accuracy
         given = accuracy.facets_per_lobe
-        first, meshes = self.coarsest() if given is None else (max(3, given // 2), None)
+        first, meshes = self.coarsest() if given is None else (self.first_given(given), None)
         built = {first: self.level(first, meshes)}
         angle = turn_angles(self.design, self.scene.ask.positions)
         solved: dict[int, Series] = {}
@@ -180,3 +185,12 @@ class Stages:
             from trochoid.drives.rv.reversal import reversal
 
             return solved.levels.map(lambda level: reversal(self.design, rung, level))
+
+    @cached_property
+    def losses(self) -> Pair[Running]:
+        """The running drive with friction, at some positions of a turn of the crankshafts."""
+        solved, rung = self.contact, self.rung
+        with self.clock.stage("losses"):
+            from trochoid.drives.rv.running import run
+
+            return solved.levels.map(lambda level: run(self.design, rung, level))

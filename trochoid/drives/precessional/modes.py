@@ -1,0 +1,186 @@
+"""Natural frequencies of a precessional drive: satellite and shafts on their joints, and the casing on its mounts.
+
+Small motions about the steady nutation, in the frame of the input shaft, where joints, teeth and mean inertia stand
+still (`elastic`).  A frequency there is heard in the fixed frame shifted by that of the shaft, up or down; each mode
+is given at the frequency at which most of it is heard.  Loads that stand still in the shaft's frame meet a mode where
+its frequency there is 0; the line of 2 z1/z2, which an uneven satellite excites, where its frequency is that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from trochoid.drives.modes import Mode, campbell_plot, shares
+from trochoid.drives.precessional.design import Design
+from trochoid.drives.precessional.mechanism import PrecessionalDrive
+from trochoid.drives.precessional.members import Bodies, bodies
+from trochoid.drives.precessional.yielding import Yielding, output_mass
+from trochoid.dynamics.casing import Casing, Mount, follow, matrices
+from trochoid.dynamics.constraint import free_motions
+from trochoid.dynamics.system import System
+from trochoid.dynamics.whirl import Whirl, whirl
+from trochoid.kinematics.errors import TrochoidError
+from trochoid.kinematics.types import Array, ComplexArray, frozen
+from trochoid.results.plot import Plot
+
+MOTIONS = ("across z", "across z", "along z", "tilting", "tilting", "turning about z")
+SPEEDS, CRITICAL = 49, 3
+ALIKE = 0.01  # critical speeds that are nearer to each other, relative, are one: a round drive has pairs
+REAL = 1e-6
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Reduced:
+    """Matrices (k, k) of the motions that rigid joints leave, `basis` (n, k): G and K_c are those of 1 rad/s."""
+
+    made: Bodies
+    basis: Array
+    mass: Array
+    springs: Array
+    gyroscopic: Array
+    centrifugal: Array
+
+    def system(self, speed: float) -> System:
+        """Return the undamped system at a speed of the shaft, rad/s."""
+        return System(
+            self.mass,
+            np.zeros_like(self.mass),
+            frozen(self.springs + speed**2 * self.centrifugal),
+            frozen(speed * self.gyroscopic),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class NaturalModes:
+    """Modes at the speed of operation; lowest critical speeds (rad/s), of loads that turn with the shaft and of the
+    line 2 z1/z2; the Campbell diagram.  `with_casing`: whether the casing on its mounts is in it.
+    """
+
+    modes: tuple[Mode, ...]
+    critical: tuple[float, ...]
+    critical_uneven: tuple[float, ...]
+    campbell: Plot
+    with_casing: bool
+
+
+def natural_modes(design: Design, drive: PrecessionalDrive, held: Yielding | None) -> NaturalModes:
+    """Return modes and critical speeds; raises TrochoidError where nothing yields."""
+    if held is None or not (held.joints.yields or design.scene.has("casing_on_mounts")):
+        raise TrochoidError(
+            "natural frequencies need something that yields: give bearing_a, bearing_b or joint_o a table"
+        )
+    casing = casing_matrices(design) if design.scene.has("casing_on_mounts") else None
+    speed = design.speed
+    made = bodies(drive, speed, design.shaft_shape, held.joints, output_mass(design), casing)
+    reduced = reduce(made, speed)
+    found = whirl(reduced.system(speed))
+    heard = [_mode(reduced, found, i, speed) for i in range(found.frequency.size)]
+    order = 2.0 * drive.tooth_ratio
+    return NaturalModes(
+        tuple(sorted(heard, key=lambda mode: mode.frequency)),
+        _apart(critical_speeds(reduced, 0.0))[:CRITICAL],
+        _apart(critical_speeds(reduced, order))[:CRITICAL],
+        _campbell(reduced, speed, drive.tooth_ratio),
+        casing is not None,
+    )
+
+
+def casing_matrices(design: Design) -> tuple[Array, Array]:
+    """Return mass and mount stiffness (6, 6) of the casing about O, fixed frame."""
+    table = design.scene.casing
+    if table is None:
+        raise TrochoidError("a casing on mounts needs the scene's [casing] table")
+    mounts = tuple(Mount(m.position, m.stiffness, m.damping) for m in table.mounts)
+    mass, _, stiffness = matrices(Casing(table.mass, table.inertia, table.center, mounts))
+    to_center = np.vstack([follow(table.center, (0.0, 0.0, 0.0)), np.eye(6)[3:]])
+    return frozen(to_center.T @ mass @ to_center), frozen(to_center.T @ stiffness @ to_center)
+
+
+def reduce(made: Bodies, speed: float) -> Reduced:
+    """Return the matrices of the motions that the rigid joints of `made` (at `speed`, rad/s) leave."""
+    basis, turning = free_motions(made.rows, made.matrices.mass), made.matrices
+    parts = (turning.mass, made.springs, turning.gyroscopic / speed, turning.centrifugal / speed**2)
+    return Reduced(made, basis, *(frozen(basis.T @ part @ basis) for part in parts))
+
+
+def critical_speeds(reduced: Reduced, order: float) -> tuple[float, ...]:
+    """Return the speeds Ω (rad/s), rising, at which a load of `order` Ω in the frame of the shaft meets a mode.
+
+    K v = Ω² (order² M − i order G − K_c) v, for matrices of 1 rad/s: no search over speeds.
+    """
+    from scipy.linalg import eig
+
+    if not reduced.basis.size:
+        return ()
+    right = order**2 * reduced.mass - 1j * order * reduced.gyroscopic - reduced.centrifugal
+    size = 1.0 / np.sqrt(np.diag(reduced.mass))
+    scale = np.outer(size, size)
+    top, below = eig(reduced.springs * scale, right * scale, right=False, homogeneous_eigvals=True)
+    finite = np.abs(below) > 1e-12 * np.abs(below).max(initial=0.0)
+    squares = top[finite] / below[finite]
+    real = np.abs(squares.imag) <= REAL * np.abs(squares)
+    return tuple(float(s) for s in np.sort(np.sqrt(squares.real[real & (squares.real > REAL)])))
+
+
+def _apart(speeds: tuple[float, ...]) -> tuple[float, ...]:
+    """Return rising speeds without those that are as good as the one before."""
+    return tuple(s for i, s in enumerate(speeds) if i == 0 or s > (1.0 + ALIKE) * speeds[i - 1])
+
+
+def _mode(reduced: Reduced, found: Whirl, i: int, speed: float) -> Mode:
+    """Return a mode of the shaft's frame as the fixed frame hears it."""
+    motion = reduced.basis @ found.shapes[:, i]
+    members = reduced.made.members
+    names = [f"{member.name} {how}" for member in members for how in MOTIONS]
+    energy = np.maximum(np.real(np.conj(motion) * (reduced.made.matrices.mass @ motion)), 0.0)
+    frequency, turns = _heard(motion, np.diag(reduced.made.matrices.mass), float(found.frequency[i]), speed)
+    return Mode(frequency, shares(energy, names), turns)
+
+
+def _heard(motion: ComplexArray, mass: Array, own: float, speed: float) -> tuple[float, str]:
+    """Return the frequency (Hz) at which the fixed frame hears most of a motion (n,), and its sense.
+
+    x + iy of the shaft's frame turns once more with the shaft: half of it moves up, half of it down.
+    """
+    shaft = speed / (2.0 * np.pi)
+    triples, weight = motion.reshape(-1, 3), mass.reshape(-1, 3)
+    up = float((weight[:, 0] * np.abs(triples[:, 0] + 1j * triples[:, 1]) ** 2).sum()) / 2.0
+    down = float((weight[:, 0] * np.abs(triples[:, 0] - 1j * triples[:, 1]) ** 2).sum()) / 2.0
+    still = float((weight[:, 2] * np.abs(triples[:, 2]) ** 2).sum())
+    if still >= max(up, down):
+        return own, ""
+    if up >= down:
+        return shaft + own, "forward"
+    return abs(shaft - own), "forward" if shaft > own else "backward"
+
+
+def _campbell(reduced: Reduced, operating: float, tooth_ratio: float) -> Plot:
+    fastest = 2.0 * operating
+    for first in critical_speeds(reduced, 0.0)[:1]:
+        fastest = min(max(fastest, 1.2 * first), 8.0 * operating)
+    speeds = np.linspace(0.0, fastest, SPEEDS)
+    lines = {
+        "input speed": 1.0,
+        f"2 z1/z2 - 1 = {2.0 * tooth_ratio - 1.0:.4g}": 2.0 * tooth_ratio - 1.0,
+        f"2 z1/z2 + 1 = {2.0 * tooth_ratio + 1.0:.4g}": 2.0 * tooth_ratio + 1.0,
+    }
+    rows = []
+    for speed in speeds:
+        found = whirl(reduced.system(float(speed)))
+        rows.append(
+            sorted(_mode(reduced, found, i, float(speed)).frequency for i in range(found.frequency.size))
+        )
+    count = min(len(row) for row in rows)
+    frequencies = np.array([row[:count] for row in rows])
+    seen = max(3.0 * max(lines.values()) * fastest / (2.0 * np.pi), 0.0)
+    shown = frequencies[:, frequencies[0] <= seen] if count else frequencies
+    return campbell_plot(
+        speeds,
+        shown,
+        lines,
+        operating,
+        "Natural frequencies as the fixed frame hears them, up to three times the highest line; stiffnesses of "
+        "bearings as at the speed of operation. A crossing with the input speed matters for a mode that turns forward.",
+    )
