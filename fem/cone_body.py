@@ -66,17 +66,6 @@ def cone_body(
     return ConeBody(mesh, radial, material, cone_stiffness(mesh, radial, material), fixed.ravel())
 
 
-def plane_strain(body: ConeBody, axis: Array) -> ConeBody:
-    """Return the body with its displacement along `axis` (3,) held at both spheres, for comparison with plane bodies.
-
-    The nodes' directions are turned so that `axis` must be one of x, y, z.
-    """
-    number = int(np.argmax(np.abs(axis)))
-    held = body.held.reshape(len(body.mesh.points), 3, body.radial.count).copy()
-    held[:, number, [0, -1]] = True
-    return ConeBody(body.mesh, body.radial, body.material, body.stiffness, held.ravel())
-
-
 def factored(body: ConeBody, free: BoolArray, solver: str | None = None) -> Solve:
     """Factor the stiffness of the degrees of freedom `free`; the function solves for columns (free, k).
 

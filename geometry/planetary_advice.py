@@ -50,10 +50,10 @@ def advice(
         near, more = refused[0]
         return (_said(given, near), *(f"and with these: {each}" for each in more))
     ring = _usual_ring(given)
-    other = "" if ring == given.teeth[2] else f", or z_ring = {ring}"
+    other = "" if ring == given.teeth[2] else f", nor with z_ring = {ring}"
     return (
-        f"no set near can be built, whatever the shifts, the number of planets, the centre distance{other}: "
-        f"{_conflict(given, limits)}; change the tooth numbers, the addendum, the cutter or the limits",
+        "no set near it can be built with other shifts, another number of planets or another centre distance"
+        f"{other} ({_conflict(given, limits)}); change the teeth, the addendum, the cutter or the limits",
     )
 
 
@@ -61,6 +61,13 @@ def _sets(given: PlanetarySet, limits: Limits) -> Iterator[PlanetarySet]:
     """Sets to try: fewest changes first, each nearest first."""
     for each in _cutters(given):
         yield from _counts(each)
+    yield from _remade(given, limits)
+    if given.planets > 1:  # one planet goes with any teeth, which is seldom what is wanted
+        yield from _remade(replace(given, planets=1), limits)
+
+
+def _remade(given: PlanetarySet, limits: Limits) -> Iterator[PlanetarySet]:
+    """Sets with other shifts, at their centre distance or another, of this ring or the usual one."""
     few = tuple(_cutters(given))[:: max(1, given.teeth[2] // 8)]
     for each in few:
         yield from _shifted(each, limits, FINE)
@@ -85,9 +92,9 @@ def _cutters(given: PlanetarySet) -> Iterator[PlanetarySet]:
 
 
 def _counts(given: PlanetarySet) -> Iterator[PlanetarySet]:
-    """The set with numbers of planets that can be assembled, its own first."""
+    """The set with numbers of planets that can be assembled, its own first; one planet only if it has one."""
     total, n = given.teeth[0] + given.teeth[2], given.planets
-    for count in sorted(range(1, MOST_PLANETS + 1), key=lambda k: (abs(k - n), -k)):
+    for count in sorted(range(min(n, 2), MOST_PLANETS + 1), key=lambda k: (abs(k - n), -k)):
         if total % count == 0:
             yield replace(given, planets=count)
 
@@ -154,15 +161,14 @@ def _conflict(given: PlanetarySet, limits: Limits) -> str:
     if found is None:
         return "the teeth cannot reach each other"
     _, _, names, margins = found
+    never = [name for name, best in zip(names, margins.max(axis=1), strict=True) if best < 0.0]
+    if never:
+        return f"{', '.join(never[:3])}: no shifts of sun and planet meet the limit"
     worst = margins.argmin(axis=0)[:-1]
     best = int(margins.min(axis=0)[:-1].argmax())
-    sides = [worst[best], *worst[best + 1 : best + 2], *worst[max(0, best - 1) : best]]
-    bound = dict.fromkeys(names[k] for k in sides)
-    if len(bound) == 1:
-        bound |= dict.fromkeys(names[k] for k in np.flatnonzero(margins[:, best] < 0.0)[:2])
-    if len(bound) == 1:
-        return f"the condition on {next(iter(bound))} cannot be met"
-    return f"the conditions on {' and '.join(bound)} exclude each other"
+    around = (best, min(best + 1, len(worst) - 1), max(best - 1, 0))
+    bound = dict.fromkeys(names[worst[k]] for k in around)
+    return f"{' and '.join(bound)}: no shifts meet the limits of both"
 
 
 def _usual_ring(given: PlanetarySet) -> int:

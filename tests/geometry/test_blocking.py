@@ -14,7 +14,7 @@ from trochoid.geometry.blocking import body, inner_contour, inner_plane, outer_c
 from trochoid.geometry.blocking_contour import END, trace
 from trochoid.geometry.blocking_line import choose, coaxial_line, needed_sums
 from trochoid.geometry.planetary import PlanetarySet, planetary
-from trochoid.geometry.planetary_check import nearest_shifts
+from trochoid.geometry.planetary_check import planetary_faults
 from trochoid.geometry.planetary_quality import Limits, least_margin, quality
 from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.shaper import Shaper
@@ -215,12 +215,14 @@ def test_empty_line_is_refused_and_has_no_nearest() -> None:
     strict = Limits(contact_ratio=1.6)
     line = coaxial_line(SOURCE, limits=strict)
     assert line.stretches == ()
-    assert nearest_shifts(SOURCE, strict) is None
+    found = planetary_faults(SOURCE, strict)
+    assert "x_sun =" not in found[-1] or "center_distance" in found[-1]
     with pytest.raises(Infeasible, match=r"no shifts with x1 \+ x2 = 1\.1336 .* change the centre distance"):
         choose(SOURCE, "tips", line)
 
 
 @pytest.mark.exact
 def test_nearest_feasible_is_the_end_of_the_line() -> None:
-    near = nearest_shifts(replace(SOURCE, shifts=(1.3, -0.166, 0.968)))
-    assert near == pytest.approx((1.195682, -0.062086, 1.071510), abs=4e-5)
+    """The end is at x1 = 1.195682; advised are steps of 0.001 within it."""
+    said = planetary_faults(replace(SOURCE, shifts=(1.3, -0.166, 0.968)))[-1]
+    assert said.endswith("x_sun = 1.195, x_planet = -0.0614, x_ring = 1.07219")

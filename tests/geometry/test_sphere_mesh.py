@@ -63,16 +63,16 @@ def test_nodes_lie_on_the_curve_and_cuts_fit(flank: SphereTooth) -> None:
 
 
 @pytest.mark.property
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(teeth())
 def test_any_tooth_that_can_be_made_is_meshed_well(flank: SphereTooth) -> None:
-    """Angles of a random tooth's mesh stay above 12°, and no element folds."""
-    shape = rim(flank)
-    assume(
-        flank.pin_angle * flank.lobes > 0.02
-    )  # crests as sharp as that are a matter of facets, not of the mesher
-    quality = sphere_quality(mesh_sphere(sector_outline(shape, 32)))
-    assert quality.min_angle > math.radians(12.0)
+    """Angles of a random tooth's mesh stay above 10°, and no element folds, where a facet turns by less than 40°."""
+    outline = sector_outline(rim(flank), 32)
+    side = next(side for side in outline.loops[0] if side.name == "flank")
+    bend = np.abs(flank.curvature(np.linspace(*side.parameters[:2], 9)))
+    assume(np.all(bend * np.linalg.norm(np.diff(side.ends, axis=0), axis=1) < 0.7))
+    quality = sphere_quality(mesh_sphere(outline))
+    assert quality.min_angle > math.radians(10.0)
     assert quality.min_scaled_jacobian > 0.1
 
 

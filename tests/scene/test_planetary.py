@@ -121,23 +121,24 @@ def asked(scene_text: str, overrides: list[str], quantities: tuple[str, ...] = C
 @pytest.mark.parametrize(
     ("overrides", "said"),
     [
-        (["drive.planets=3"], r"no multiple of 3; take 2 or 4 planets, or a ring of 79 teeth"),
-        (["drive.planets=5"], r"5 planets of radius 33 mm .* collide: .* take at most 4"),
+        (["drive.planets=3"], r"no multiple of 3\nthe nearest that can be built: planets = 4$"),
+        (["drive.planets=5"], r"5 planets of radius 33 mm .* collide: .*\nthe nearest that can be built: planets = 4$"),
         (["drive.center_distance=51"], r"20 and 30 teeth stand 52\.0006 mm apart .* not coaxial"),
         (
             ["drive.center_distance=40"],
-            r"need more than a·cos α = 46\.9846 mm; take a centre distance from 46\.9846 mm",
+            r"need more than a·cos α = 46\.9846 mm\nthe nearest that can be built: center_distance = \"49",
         ),
         (
             ["drive.z_ring=81"],
-            r"30 and 81 teeth stand .* not coaxial\nthe nearest feasible shifts are x_sun = 0\.5",
+            r"30 and 81 teeth stand .* not coaxial\nthe nearest that can be built: z_ring = 80, x_sun",
         ),
         (["drive.x_sun=-0.4", "drive.x_planet=1.534", "drive.x_ring=2.668"], r"undercut of the sun"),
-        (["drive.ring_cutter.z=90"], r"cutter of 90 teeth for a ring of 80: take one of at most 79"),
+        (["drive.ring_cutter.z=90"], r"cutter of 90 teeth for a ring of 80: it needs less(.|\n)*ring_cutter.z = 6"),
         (
             ["drive.limits.contact_ratio=1.4"],
-            r"contact ratio of sun and planet: 1\.29764, .* ≥ 1\.4\nno shifts at a centre",
+            r"contact ratio of sun and planet: 1\.29764, .* ≥ 1\.4\nthe nearest that can be built: center_distance = ",
         ),
+        (["drive.limits.contact_ratio=1.8"], r"no set near it can be built .*contact ratio of sun and planet: no"),
         (
             ["drive.sun.bore_radius=19"],
             r"sun\.bore_radius = 19 mm: nothing is left .* less than the root radius 18\.5",
@@ -202,6 +203,49 @@ def test_whatever_is_written_ends_in_numbers_or_in_reasons(data: st.DataObject, 
     for name, quantity in found.items():
         for value in numbers(quantity):
             assert math.isfinite(value), name
+
+
+ADVISED = "the nearest that can be built: "
+
+
+@pytest.mark.property
+@given(
+    data=st.data(),
+    keys=st.sets(
+        st.sampled_from(
+            ["z_sun", "z_planet", "z_ring", "planets", "center_distance", "x_sun", "x_planet", "x_ring"]
+        ),
+        min_size=1,
+        max_size=4,
+    ),
+)
+@settings(max_examples=40, deadline=None)
+def test_advice_works_when_typed_in(data: st.DataObject, keys: set[str]) -> None:
+    """The numbers of the message, put back into the scene: `check` passes, or states another reason."""
+    values = {key: data.draw(FIELDS[key], key) for key in sorted(keys)}
+    overrides = [RIGID, 'ask.quantities=["profile"]']
+    overrides += [f"drive.{key}={value!r}" for key, value in values.items() if value is not None]
+    said = refusal(overrides)
+    if said is None:
+        return
+    advice = next((line for line in said if line.startswith(ADVISED)), None)
+    if advice is None:
+        assert "no set near it can be built" in said[-1] or "drive" in said[0] or "bore_radius" in said[0]
+        return
+    then = refusal(overrides + [f"drive.{each}" for each in advice.removeprefix(ADVISED).split(", ")])
+    assert then is None or not any(line.startswith(ADVISED) for line in then)
+    assert then is None or f"and with these: {then[0]}" in said or "base circles" in said[0]
+
+
+def refusal(overrides: list[str]) -> list[str] | None:
+    """Why `check` refuses the example with these overrides, None if it does not or the fields themselves are wrong."""
+    try:
+        plan(read(TEXT, overrides))
+    except SceneFaults:
+        return None
+    except Infeasible as reason:
+        return str(reason).splitlines()
+    return None
 
 
 def numbers(part: Any) -> list[float]:
