@@ -10,7 +10,7 @@ from benchmarks.table import Table, plain, summary, text
 from trochoid.console import one_thread
 
 # in this order: the peak memory of a child process counts what its parent has loaded, so "run" and "scaling" come first
-ALL = ("run", "scaling", "disc", "gear", "speed", "estimate", "closed_forms", "calculix")
+ALL = ("run", "scaling", "disc", "gear", "speed", "dynamics", "estimate", "closed_forms", "calculix")
 LONG = ("choice",)  # many minutes: measured only when named; `--quick` takes fewer cases
 
 

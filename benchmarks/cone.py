@@ -109,7 +109,7 @@ def _resolved(found: ConeContact, rho: Array, rollers: IntArray, load: Array, pe
     foci = tuple(Focus(float(p), float(w) / per, 2 * half) for p, w in zip(place, width, strict=True))
     breaks = refined_breaks(SHAPE, FIRST, TEETH, 20, foci)
     mesh = mesh_sphere(outline_of_breaks(SHAPE, breaks, 1.35), 1.35)
-    body = cone_body(mesh, layers(48e-3, 60e-3, 10), STEEL)
+    body = cone_body(mesh, layers(48e-3, 60e-3, RimMesh().layers), STEEL)
     side = flank(mesh, TOOTH)
     windows = tuple(
         Window(

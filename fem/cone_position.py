@@ -8,88 +8,24 @@ the slices of pressed contacts is put into the gaps and follows the forces from 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 
 import numpy as np
 
 from trochoid.fem import complementarity as lcp
-from trochoid.fem.cone_law import FAINT, Side, SliceLaw
-from trochoid.fem.cone_pair import ConeState, RollerPair
-from trochoid.fem.cone_table import RimCompliance, Weights
+from trochoid.fem.cone_assembly import RIGID_ROLLER, ConeAssembly, ConeContact, Roller
+from trochoid.fem.cone_elastic import Elastic, beside, elastic_at, updated, whole, yielded
+from trochoid.fem.cone_law import FAINT
+from trochoid.fem.cone_pair import ConeState
 from trochoid.kinematics.errors import NotConverged
-from trochoid.kinematics.types import Array, BoolArray, IntArray
+from trochoid.kinematics.types import Array
+
+__all__ = ["RIGID_ROLLER", "ConeAssembly", "ConeContact", "Roller", "solve_cone"]
 
 STEPS = 60
 SETTLED = 1e-9  # of the largest force
 ROUNDING = 1e-14  # of the coordinates: gaps are not known better
 MOVED = 1e-6  # rad or m, over which arms and laws are differenced
-NEAR = 1e-3  # of a station's width: contacts that moved less keep their compliance
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Roller:
-    """The roller's side of each contact: `kernel` 2/(πE') in 1/Pa, 0 for a rigid one.
-
-    `own` (s, s) in m/N is its S when it is a body of its own (see `cone_roller`), with `ends` (m) and `blunt` (s,) as
-    in `Side`; otherwise half a solid cylinder pressed on its far side as well (Johnson, Contact Mechanics, 5.57):
-    (2/(πE'))(ln(4r/b) − ½) per unit line load, r the roller's radius.
-    """
-
-    kernel: float = 0.0
-    poissons_ratio: float = 0.3
-    own: Array | None = None
-    ends: tuple[float, float] = (0.0, 0.0)
-    blunt: Array | None = None
-
-
-RIGID_ROLLER = Roller()
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class ConeAssembly:
-    """Rim, rollers, springs (k, k) in N·m/rad (N/m) and loads (n, k) in N·m (N) on the rim's motions."""
-
-    rim: RimCompliance
-    pair: RollerPair
-    springs: Array
-    load: Array
-    roller: Roller = RIGID_ROLLER
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class ConeContact:
-    """Solved positions.
-
-    `force` (n, C, s) in N on slices, `pressure` (n, C, s) the largest of each in Pa, `half_width` (n, C, s) in m,
-    `motion` (n, k), `stiffness` (n, k, k) its tangent, `state` the geometry there, `steps` taken, `residual` (n,) the
-    worst overlap, or opening of pressed slices, over the largest approach.
-
-    The stiffness is the symmetric part of the slope of load over motion, arms that turn and contacts that move along
-    the flank included.  (Forces act along the normal at the middle of each contact, so that a part is left over, of
-    per cents beside the bottoms of tooth spaces, which rollers nearly fill.)
-    """
-
-    force: Array
-    pressure: Array
-    half_width: Array
-    motion: Array
-    stiffness: Array
-    state: ConeState
-    steps: int
-    residual: Array
-
-    @property
-    def total(self) -> Array:
-        """Force (n, C) of each contact, N."""
-        return np.asarray(self.force.sum(axis=-1))
-
-    def edge(self) -> BoolArray:
-        """Say where (n, C) the true pressure at an edge has no bound, and the one given is too low.
-
-        So it is where an end of a roller presses (a crowned one does not), and at the pressed edge of a cut crest.
-        """
-        ends = (self.force[..., 0] > 0.0) | (self.force[..., -1] > 0.0)
-        return np.asarray(ends | (self.state.off & (self.total > 0.0)))
 
 
 def solve_cone(assembly: ConeAssembly, at_once: int = 16) -> ConeContact:
@@ -117,26 +53,10 @@ def _joined(parts: Sequence[ConeContact]) -> ConeContact:
     return replace(first, **contact, state=ConeState(**state), steps=max(p.steps for p in parts))
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Elastic:
-    """Compliances at the contacts' `place` (n, C): `own` (n, C, s, s), `spread` (n, C, C) between totals, the laws.
-
-    Per position: numbers of contacts that are or were `pressed`, and the compliance `cross` (P, s, P, s) between these.
-    """
-
-    place: Array
-    own: Array
-    spread: Array
-    weights: Weights
-    law: SliceLaw
-    pressed: list[IntArray]
-    cross: list[Array]
-
-
 def _solved(assembly: ConeAssembly) -> ConeContact:
     motion = np.zeros_like(assembly.load)
     state = assembly.pair.at(motion)
-    elastic = _elastic(assembly, state)
+    elastic = elastic_at(assembly, state)
     force = _guess(assembly, state)
     solution: lcp.Solution | None = None
     change = np.full(len(motion), np.inf)
@@ -149,14 +69,14 @@ def _solved(assembly: ConeAssembly) -> ConeContact:
         size = np.maximum(new.max(axis=(1, 2), initial=0.0), 1e-300)
         change = np.abs(new - force).max(axis=(1, 2), initial=0.0) / size
         noise = _noise(assembly, problem)
-        _fail_if_drowned(assembly, size, noise)
+        _fail_if_drowned(assembly, state, new, noise)
         new = np.where((size > noise)[:, None, None], new, 0.0)  # less is rounding: nothing touches
         change = np.where(new.any(axis=(1, 2)), change - noise / size, 0.0)
         motion, force = motion + solution.motion, new
         state = assembly.pair.at(motion)
         if np.all(change < SETTLED):
             return _contact(assembly, elastic, state, force, motion, step)
-        elastic = _updated(assembly, elastic, state, force)
+        elastic = updated(assembly, elastic, state, force)
     worst = int(np.argmax(change))
     raise NotConverged(
         f"contact of rollers and rim: forces still change by {change[worst]:.1e} of the largest after {STEPS} steps; "
@@ -171,8 +91,11 @@ def _noise(assembly: ConeAssembly, problem: lcp.Problem) -> Array:
     return np.asarray(ROUNDING * assembly.rim.slices.outer[-1] / least)
 
 
-def _fail_if_drowned(assembly: ConeAssembly, size: Array, noise: Array) -> None:
-    drowned = np.flatnonzero((size <= noise) & assembly.load.any(axis=1))
+def _fail_if_drowned(assembly: ConeAssembly, state: ConeState, force: Array, noise: Array) -> None:
+    """Refuse loads that contacts carry (springs may carry them instead) with forces that are no more than rounding."""
+    carried = np.abs(np.einsum("ncsk,ncs->nk", state.arms, force))
+    needed = (carried > 1e-3 * np.abs(assembly.load)) & (assembly.load != 0.0)
+    drowned = np.flatnonzero((force.max(axis=(1, 2), initial=0.0) <= noise) & needed.any(axis=1))
     if len(drowned):
         row = int(drowned[0])
         raise NotConverged(
@@ -193,61 +116,14 @@ def _guess(assembly: ConeAssembly, state: ConeState) -> Array:
     return np.where(carrying, share[:, None, None], 0.0)
 
 
-def _elastic(assembly: ConeAssembly, state: ConeState) -> _Elastic:
-    rim = assembly.rim
-    place = rim.weights(state.place)
-    own = rim.on_itself(place)
-    if assembly.roller.own is not None:
-        own = own + assembly.roller.own
-    count = len(state.place)
-    none = [np.zeros(0, dtype=np.intp)] * count
-    return _Elastic(
-        state.place,
-        own,
-        rim.spread(place),
-        place,
-        _law(assembly, state, rim.blunt(place)),
-        none,
-        [np.zeros((0, 0, 0, 0))] * count,
-    )
-
-
-def _law(assembly: ConeAssembly, state: ConeState, blunt: Array) -> SliceLaw:
-    rim, roller, rho = assembly.rim, assembly.roller, assembly.rim.slices.middle
-    sides = [Side(rim.kernel, rim.poissons_ratio, rim.ends, blunt[..., None] * rho)]
-    if roller.kernel > 0.0 and roller.own is None:
-        radius = rho * np.tan(assembly.pair.tooth.pin_angle - assembly.pair.clearance)
-        sides.append(Side(roller.kernel, roller.poissons_ratio, (0.0, 0.0), None, np.log(2.0 * radius) - 1.0))
-    elif roller.own is not None:
-        sides.append(Side(roller.kernel, roller.poissons_ratio, roller.ends, roller.blunt))
-    return SliceLaw(rim.slices, tuple(sides), rho / state.bend[..., None])
-
-
-def _updated(assembly: ConeAssembly, elastic: _Elastic, state: ConeState, force: Array) -> _Elastic:
-    """Take compliances afresh where contacts moved, and between slices for those that are pressed."""
-    moved = np.abs(state.place - elastic.place).max(axis=1) > NEAR * float(assembly.rim.half_width.min())
-    if moved.any():
-        elastic = _elastic(assembly, state)
-    pressed, cross = list(elastic.pressed), list(elastic.cross)
-    for i, total in enumerate(force.sum(axis=-1)):
-        touching = np.flatnonzero(total > 0.0)
-        if not np.isin(touching, pressed[i]).all():
-            touching = np.union1d(touching, pressed[i])
-            w = elastic.weights
-            at = Weights(w.tooth[i, touching], w.station[i, touching], w.value[i, touching])
-            pressed[i], cross[i] = touching, assembly.rim.between(at)
-    law = _law(assembly, state, assembly.rim.blunt(elastic.weights))
-    return replace(elastic, pressed=pressed, cross=cross, law=law)
-
-
 def _problem(
-    assembly: ConeAssembly, elastic: _Elastic, state: ConeState, force: Array, motion: Array
+    assembly: ConeAssembly, elastic: Elastic, state: ConeState, force: Array, motion: Array
 ) -> lcp.Problem:
     largest = force.max(axis=(1, 2), initial=0.0)
     floor = FAINT * np.where(largest > 0.0, largest, 1.0)
     at = np.maximum(force, floor[:, None, None])
     approach, slope = elastic.law.approach(at)
-    gap = state.gap + approach - slope * at + _beside(elastic, force)
+    gap = state.gap + approach - slope * at + beside(elastic, force)
     slices = np.arange(gap.shape[-1])
     local = elastic.own.copy()
     local[..., slices, slices] += slope
@@ -260,19 +136,8 @@ def _problem(
     )
 
 
-def _beside(elastic: _Elastic, force: Array) -> Array:
-    """Return what slices of other contacts press a slice by (n, C, s) beyond what their totals do."""
-    found = np.zeros_like(force)
-    for i, (chosen, cross) in enumerate(zip(elastic.pressed, elastic.cross, strict=True)):
-        if len(chosen):
-            f = force[i, chosen]
-            exact = np.einsum("asbt,bt->as", cross, f, optimize=True)
-            found[i, chosen] = exact - (elastic.spread[i][np.ix_(chosen, chosen)] @ f.sum(axis=-1))[:, None]
-    return found
-
-
 def _contact(
-    assembly: ConeAssembly, elastic: _Elastic, state: ConeState, force: Array, motion: Array, steps: int
+    assembly: ConeAssembly, elastic: Elastic, state: ConeState, force: Array, motion: Array, steps: int
 ) -> ConeContact:
     law = elastic.law
     stiffness = np.empty((len(motion), motion.shape[1], motion.shape[1]))
@@ -281,7 +146,7 @@ def _contact(
     slope = law.approach(np.maximum(force, 1e-300))[1]
     value = np.where(force > 0.0, law.approach(np.maximum(force, 1e-300))[0], 0.0)
     for i in range(len(motion)):
-        matrix = _whole(elastic, i)
+        matrix = whole(elastic, i)
         flat, gap = force[i].ravel(), state.gap[i].ravel()
         pressed = np.flatnonzero(flat > 0.0)
         opening = gap + matrix @ flat + value[i].ravel()
@@ -306,26 +171,6 @@ def _moving(assembly: ConeAssembly, force: Array, motion: Array) -> tuple[Array,
     for step in MOVED * np.eye(motion.shape[1]):
         states = [assembly.pair.at(motion + s * step) for s in (1.0, -1.0)]
         turning.append(np.einsum("ncsk,ncs->nk", states[0].arms - states[1].arms, force))
-        yielding.append(np.subtract(*(_yielded(assembly, state, force) for state in states)))
+        yielding.append(np.subtract(*(yielded(assembly, state, force) for state in states)))
     double = 2.0 * MOVED
     return np.stack(turning, axis=-1) / double, np.stack(yielding, axis=-1) / double
-
-
-def _yielded(assembly: ConeAssembly, state: ConeState, force: Array) -> Array:
-    place = assembly.rim.weights(state.place)
-    law = _law(assembly, state, assembly.rim.blunt(place))
-    own = np.einsum("ncst,nct->ncs", assembly.rim.on_itself(place), force)
-    return np.where(force > 0.0, own + law.approach(np.maximum(force, 1e-300))[0], 0.0)
-
-
-def _whole(elastic: _Elastic, i: int) -> Array:
-    """Return the compliance (Cs, Cs) between all slices of one position, without the laws."""
-    count, slices = elastic.own.shape[1:3]
-    whole = np.repeat(np.repeat(elastic.spread[i], slices, axis=0), slices, axis=1)
-    whole = whole.reshape(count, slices, count, slices)
-    chosen = elastic.pressed[i]
-    if len(chosen):
-        whole[np.ix_(chosen, np.arange(slices), chosen, np.arange(slices))] = elastic.cross[i]
-    number = np.arange(count)
-    whole[number, :, number] = elastic.own[i]
-    return whole.reshape(count * slices, count * slices)

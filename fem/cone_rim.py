@@ -38,8 +38,8 @@ class RimMesh:
     Contacts have slices of a layer's `parts`: several where rollers are crowned so much that they touch over little.
     """
 
-    facets: int = 32
-    layers: int = 10
+    facets: int = 28
+    layers: int = 9
     growth: float = 1.3
     parts: int = 1
     degree: int = DEGREE

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csc_matrix
 
+from trochoid.fem.cone_assembly import Roller
 from trochoid.fem.cone_body import cone_body, factored, product, read
 from trochoid.fem.cone_flank import SPREAD, flank, load_at
 from trochoid.fem.cone_layers import Layers, integrals
-from trochoid.fem.cone_position import Roller
 from trochoid.fem.cone_sharp import sharpened
 from trochoid.fem.cone_slices import Slices, finer
 from trochoid.fem.material import Material

@@ -50,6 +50,8 @@ def enclosed(curve: Curve) -> Section:
     area = 0.5 * float(q.sum())
     first = np.einsum("ij,ijk->k", q, r) / 3.0
     polar = 0.25 * float(np.sum(q * np.sum(r * r, axis=-1)))
+    if area == 0.0:  # so small that its area is none in floating point
+        return Section(0.0, (0.0, 0.0), 0.0)
     return Section(area, (float(first[0] / area), float(first[1] / area)), polar)
 
 

@@ -197,7 +197,7 @@ def test_the_source_can_be_built() -> None:
         ({"teeth": (2, 30, 62)}, r"sun with 2 teeth: at least 3"),
         ({"teeth": (20, 30, 30)}, r"ring of 30 teeth around a planet of 30: .* near z1 \+ 2 z2 = 80"),
         ({"planets": 0}, r"0 planets: at least one"),
-        ({"cutter": Shaper(80, 0.0, 0.165)}, r"cutter of 80 teeth for a ring of 80: it needs less(.|\n)*ring_cutter.z = 6"),
+        ({"cutter": Shaper(80, 0.0, 0.165)}, r"80 teeth for a ring of 80: it needs less(.|\n)*ring_cutter.z = 6"),
         (
             {"cutter": Shaper(25, 5.0, 0.0756)},
             r"take a larger ring shift or a cutter with less teeth or shift",

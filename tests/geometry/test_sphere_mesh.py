@@ -69,7 +69,7 @@ def test_any_tooth_that_can_be_made_is_meshed_well(flank: SphereTooth) -> None:
     """Angles of a random tooth's mesh stay above 10°, and no element folds, where a facet turns by less than 40°."""
     outline = sector_outline(rim(flank), 32)
     side = next(side for side in outline.loops[0] if side.name == "flank")
-    bend = np.abs(flank.curvature(np.linspace(*side.parameters[:2], 9)))
+    bend = np.abs(flank.curvature(np.linspace(side.parameters[0], side.parameters[1], 9)))
     assume(np.all(bend * np.linalg.norm(np.diff(side.ends, axis=0), axis=1) < 0.7))
     quality = sphere_quality(mesh_sphere(outline))
     assert quality.min_angle > math.radians(10.0)
