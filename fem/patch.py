@@ -93,11 +93,11 @@ def _grow(body: Body, load: PointForce, radius: float) -> IntArray:
     corners = body.mesh.triangles[:, near]
     relative = body.mesh.points[corners] - load.point
     z = (relative[..., 0] + 1j * relative[..., 1]) * turn
-    angle = np.abs(
-        np.angle(np.where(np.abs(z) < 1e-6 * load.facet, 1.0, z))
-    )  # a corner that is pressed has none
+    pressed = np.abs(z) < 1e-6 * load.facet  # a corner that is pressed has no angle, and must not lie on Γ
+    angle = np.abs(np.angle(np.where(pressed, 1.0, z)))
     allowed = np.zeros(len(body.neighbours), dtype=bool)
-    allowed[near[np.all(angle < 0.85 * np.pi, axis=0) & ~body.held[corners].any(axis=0)]] = True
+    seen = np.all(angle < 0.85 * np.pi, axis=0) | pressed.any(axis=0)
+    allowed[near[seen & ~body.held[corners].any(axis=0)]] = True
     allowed[load.element] = True
     inside = np.zeros_like(allowed)
     front = np.array([load.element])

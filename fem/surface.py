@@ -6,10 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_matrix
+from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import splu
 
 from trochoid.kinematics.types import Array, BoolArray, IntArray
+
+FEW = 16  # places up to which single entries of a table are gathered; beyond, whole rows
+TOGETHER = 2_000_000  # numbers of these rows at a time: some of the cache, little of the memory
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,9 +168,24 @@ def splined(smooth: Array, s: Array, surfaces: Sequence[Surface]) -> tuple[Array
 def read_table(table: Array, place: Weights) -> Array:
     """Return a splined table (n, n) between places."""
     columns, values = place.columns, place.values
-    gathered = table[columns[..., :, None, :, None], columns[..., None, :, None, :]]
-    half = np.matmul(gathered, values[..., None, :, :, None])[..., 0]
-    return np.asarray(np.einsum("...ija,...ia->...ij", half, values))
+    count, reach = columns.shape[-2:]
+    if count < FEW:
+        gathered = table[columns[..., :, None, :, None], columns[..., None, :, None, :]]
+        half = np.matmul(gathered, values[..., None, :, :, None])[..., 0]
+        return np.asarray(np.einsum("...ija,...ia->...ij", half, values))
+    flat, weights = columns.reshape(-1, count, reach), values.reshape(-1, count, reach)
+    result = np.empty((len(flat), count, count))
+    together = max(1, TOGETHER // (count * len(table)))  # positions whose rows are read side by side
+    for start in range(0, len(flat), together):
+        rows = slice(start, start + together)
+        ends = np.arange(0, flat[rows].size + 1, reach)
+        weighted = csr_matrix(
+            (weights[rows].ravel(), flat[rows].ravel(), ends), shape=(len(ends) - 1, len(table))
+        )
+        half = (weighted @ table).reshape(-1, count, len(table))
+        for i, part in enumerate(half, start=start):
+            result[i] = np.einsum("jai,ja->ij", part.T[flat[i]], weights[i])
+    return result.reshape(*columns.shape[:-1], count)
 
 
 def read_diagonal(diagonal: Array, place: Weights) -> Array:

@@ -25,7 +25,7 @@ SPARE = 2e-5  # margins that rounding to five digits leaves
 FINE, COARSE = 8001, 401  # shifts tried at the given centre distance, and at others
 STEP, REACH = 0.05, 3.0  # steps of other centre distances, and how far they go, in modules
 MOST_PLANETS = 24
-TRIES = 8  # sets that only `also` refuses
+TRIES = 24  # sets that only `also` refuses
 
 
 def advice(
@@ -110,8 +110,9 @@ def _shifted(given: PlanetarySet, limits: Limits, points: int) -> Iterator[Plane
         return
     own = given.shifts[0]
     order = good[np.argsort(np.abs(good - own), kind="stable")]
-    for x1 in order[[0, min(2, order.size - 1), order.size // 2]]:
-        sun = own if x1 == own else round(float(x1), 3)
+    few = np.linspace(0, order.size - 1, 12 if points == FINE else 3).astype(int)
+    for x1 in order[list(dict.fromkeys((0, min(2, order.size - 1), *few.tolist())))]:
+        sun = float(f"{own:.10g}") if x1 == own else round(float(x1), 3)
         _, x2, x3 = line.shifts(sun)
         yield from _counts(replace(given, shifts=(sun, round(float(x2), 5), round(float(x3), 5))))
 
@@ -141,6 +142,8 @@ def _margins(
         ]
     except Infeasible:
         return None
+    if not (2.0 * LOW < sums[0] < 2.0 * HIGH and abs(sums[1]) < HIGH - LOW):
+        return None  # no planet or ring has such shifts
     line = Line(sums[0], sums[1], ())
     x = np.append(np.linspace(LOW, HIGH, points), given.shifts[0])
     with np.errstate(all="ignore"):
@@ -154,9 +157,7 @@ def _margins(
 def _conflict(given: PlanetarySet, limits: Limits) -> str:
     """What excludes what, where the least margin of all conditions is largest."""
     z1, z2, _ = given.teeth
-    usual = replace(
-        given, center_distance=0.5 * given.module * (z1 + z2), teeth=(z1, z2, _usual_ring(given))
-    )
+    usual = replace(given, center_distance=0.5 * given.module * (z1 + z2), teeth=(z1, z2, _usual_ring(given)))
     found = _margins(given, limits, COARSE) or _margins(next(_cutters(usual)), limits, COARSE)
     if found is None:
         return "the teeth cannot reach each other"

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,6 +24,8 @@ REASONS = {
     "": "the two arm angles that solve it have become one, and there is none beyond",
 }
 
+_SWEPT = 40  # swings of a given ρ that are looked at
+
 
 @dataclass(frozen=True, slots=True)
 class Wish:
@@ -40,10 +43,14 @@ class Wish:
                 "k and ρ belong to each other once swing, planet ratio and shaft angle are given; give one of them"
             )
 
+    @property
+    def free(self) -> str:
+        """Name what is given of k and ρ."""
+        return f"k = {self.duration:.10g}" if self.duration is not None else f"ρ = {self.pin_ratio:.10g}"
+
     def __str__(self) -> str:
         """Name the wish in a message."""
-        free = f"k = {self.duration:g}" if self.duration is not None else f"ρ = {self.pin_ratio:g}"
-        return ", ".join(x for x in (free, self.kind, self.place) if x)
+        return ", ".join(x for x in (self.free, self.kind, self.place) if x)
 
 
 def nearest_swing(task: Task, wish: Wish) -> tuple[float, str] | None:
@@ -52,16 +59,10 @@ def nearest_swing(task: Task, wish: Wish) -> tuple[float, str] | None:
     Swings (or arms, for a given ρ) are tried degree by degree and the limit is then bisected: what serves over
     less than a degree may be missed.
     """
-    degrees: Array = np.arange(1.0, 360.0)
-    tried = _swept_swings(task, wish) if wish.duration is None else np.radians(degrees)
-    tried = tried[np.abs(tried - task.swing).argsort()]
-    if wish.duration is None:
-        serves = [x for x in tried[:8] if _serving(task, wish, np.array([x])).any()]
-    else:
-        serves = list(tried[_serving(task, wish, tried)])
-    if not serves:
+    first = next(serving_swings(task, wish), None)
+    if first is None:
         return None
-    inside, outside = float(serves[0]), task.swing
+    inside, outside = first, task.swing
     while abs(outside - inside) > 1e-9:
         middle = 0.5 * (inside + outside)
         if _serving(task, wish, np.array([middle])).any():
@@ -71,21 +72,35 @@ def nearest_swing(task: Task, wish: Wish) -> tuple[float, str] | None:
     return inside, _binding(task, wish, inside, outside)
 
 
-def nearest_free(task: Task, wish: Wish) -> str | None:
-    """Name the k or ρ nearest to the wish that serves with the task's own swing; None if none does.
+def serving_swings(task: Task, wish: Wish) -> Iterator[float]:
+    """Swings (rad) that serve, in whole degrees for a given k, nearest to the task's first."""
+    tried = _swept_swings(task, wish) if wish.duration is None else np.radians(np.arange(1.0, 360.0))
+    tried = tried[np.abs(tried - task.swing).argsort()]
+    if wish.duration is not None:
+        yield from (float(x) for x in tried[_serving(task, wish, tried)])
+        return
+    for x in tried[:_SWEPT]:
+        if _serving(task, wish, np.array([x])).any():
+            yield float(x)
 
-    Every k in steps of 0.005 is tried, with all its ρ: what is named serves, but a nearer one may lie between.
+
+def serving_free(task: Task, wish: Wish) -> Iterator[Wish]:
+    """The wish with each k or ρ that serves with the task's own swing, nearest first, in few digits.
+
+    Every k in steps of 0.005 is tried, with all its ρ: a nearer one may lie between.
     """
     steps = np.linspace(0.005, 0.995, 199)
     roots = roots_by_duration(0.5 * task.swing, math.pi * steps, task.planet, task.shaft_angle)
     roots = roots.take((assess(roots, task).fault == 0) & _wanted(roots, wish) & (roots.pin > 1e-9))
-    if roots.arm.size == 0:
-        return None
     if wish.duration is not None:
         k = roots.half_turn / math.pi
-        return f"k = {k[np.abs(k - wish.duration).argmin()]:.4g}"
+        for x in dict.fromkeys(float(f"{x:.4g}") for x in k[np.abs(k - wish.duration).argsort()]):
+            yield replace(wish, duration=x)
+        return
     assert wish.pin_ratio is not None
-    return f"ρ = {roots.pin_ratio[np.abs(np.log(roots.pin_ratio / wish.pin_ratio)).argmin()]:.6g}"
+    nearest = np.abs(np.log(roots.pin_ratio / wish.pin_ratio)).argsort()
+    for x in dict.fromkeys(float(f"{x:.6g}") for x in roots.pin_ratio[nearest]):
+        yield replace(wish, pin_ratio=x)
 
 
 def _candidates(task: Task, wish: Wish, swings: Array) -> Roots:

@@ -45,6 +45,8 @@ class Run:
 
     def __getattr__(self, name: str) -> Quantity:
         """Compute a quantity on first use."""
+        if name in type(self).__dict__:  # an attribute was missing inside this property: say which
+            return super().__getattribute__(name)  # type: ignore[no-any-return]
         if name.startswith("_") or name not in self.drive.quantities:
             raise AttributeError(f'a run has no stage and no quantity "{name}"')
         return self.quantity(name)

@@ -116,7 +116,7 @@ def test_speeds_and_ratio() -> None:
     speeds = run.member_speeds
     arm = number(speeds, "arm")
     assert number(speeds, "planet_on_arm") == pytest.approx(-4 * arm)
-    assert abs(number(speeds, "wheel_mean")) == pytest.approx(arm / 4)
+    assert abs(number(speeds, "wheel_mean_speed")) == pytest.approx(arm / 4)
     gamma = math.radians(number(run.profile, "arm_angle"))
     across, along = -4 * math.sin(gamma), 1 - 4 * math.cos(gamma)
     assert number(speeds, "planet") == pytest.approx(arm * math.hypot(across, along))
@@ -131,7 +131,7 @@ def test_sense_of_the_wheel() -> None:
     v = (pin_at(made.path, 1e-6).real - P) / 1e-6
     about = float(np.cross(made.axis, P) @ v)
     assert math.copysign(1.0, about) == run.stages.design.turns == -1
-    assert number(run.member_speeds, "wheel_mean") < 0.0
+    assert number(run.member_speeds, "wheel_mean_speed") < 0.0
 
 
 @pytest.mark.exact
@@ -140,19 +140,27 @@ def test_all_solutions_are_listed() -> None:
     run = run_of("pin_ratio = 0.527")
     parts = run.solutions.parts
     assert parts is not None
-    serve, other = parts["serve"], parts["do_not_serve"]
-    assert not isinstance(serve, Quantity)
-    assert not isinstance(other, Quantity)
-    assert len(serve) + len(other) == len(run.stages.design.solutions) == 16
-    assert [name for name in serve if "chosen" in name] == ["1 hypo near (chosen)"]
-    assert {name.split(" ", 1)[1].removesuffix(" (chosen)") for name in serve} == {
-        "hypo near",
-        "epi near",
-        "hypo far",
-        "epi far",
-    }
-    said = {entry.value for entry in other.values() if isinstance(entry, Quantity)}
-    assert said == {"turns back on its way", "pin comes back in the dwell"}
+    assert list(parts) == [f"solution_{k}" for k in range(1, 17)]
+    assert len(parts) == len(run.stages.design.solutions)
+    said = [
+        tuple(str(row[key].value) for key in ("train", "place", "serves"))  # type: ignore[union-attr, index]
+        for row in parts.values()
+    ]
+    assert [row for row in said if row[2] == "chosen"] == said[:1] == [("hypo", "near", "chosen")]
+    serve = {row[:2] for row in said if row[2] in ("yes", "chosen")}
+    assert serve == {("hypo", "near"), ("epi", "near"), ("hypo", "far"), ("epi", "far")}
+    reasons = {row[2] for row in said} - {"yes", "chosen"}
+    assert reasons == {"no, turns back on its way", "no, pin comes back in the dwell"}
+
+
+@pytest.mark.exact
+def test_nothing_but_rounding_is_shown_as_nothing() -> None:
+    """No hard shock is 0; all keys of the answers are plain identifiers."""
+    run = run_of()
+    for name in ("indexer", "geneva_wheel"):
+        assert number(run.indexing_motion, name, "hard_shock") == 0.0
+    for quantity in (run.solutions, run.member_speeds, run.indexing_motion):
+        assert all(key.isidentifier() for key in quantity.parts or {})
 
 
 @pytest.mark.property

@@ -20,7 +20,7 @@ from trochoid.kinematics.cycloid import Cycloid
 from trochoid.kinematics.errors import Infeasible, NotConverged, TrochoidError
 from trochoid.results import Outcome, to_json
 from trochoid.run import Run
-from trochoid.scene.needs import UNDER_TORQUE
+from trochoid.scene.needs import NEEDS, UNDER_TORQUE
 
 ALL = 'ask.quantities=["' + '","'.join(STAGES_OF) + '"]'
 QUICK = ("ask.positions=4", "accuracy.facets_per_lobe=6")
@@ -39,7 +39,7 @@ def outcome(*overrides: str, effects: tuple[str, ...] = EFFECTS) -> Outcome:
     """Return everything that the effects allow to ask."""
     asked = [name for name in STAGES_OF if name != "stress_max" or "elastic_contact" in effects]
     if "inertia" not in effects:
-        asked = [n for n in asked if n not in ("reactions", "vibration_velocity", "vibration_zone")]
+        asked = [n for n in asked if "inertia" not in NEEDS["khv"][n]]
     if "bearing_compliance" not in effects:
         asked.remove("bearing_stiffness")
     if UNLOADED in overrides:

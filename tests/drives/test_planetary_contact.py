@@ -260,7 +260,7 @@ def test_a_run_has_numbers_with_errors_and_checks_that_hold() -> None:
     )
     made = Run(scene).outcome
     assert all(check.ok for check in made.checks)
-    assert len(made.checks) == 9
+    assert len(made.checks) == 12
     stiffness = made.quantities["torsional_stiffness"]
     assert stiffness.model == "level0"
     assert stiffness.error is not None
@@ -278,7 +278,7 @@ def test_a_run_has_numbers_with_errors_and_checks_that_hold() -> None:
 @pytest.mark.parametrize("quantity", [name for name, needs in NEEDS["planetary"].items() if needs])
 def test_quantities_of_contact_need_its_effect(quantity: str) -> None:
     """Design: an error that names both."""
-    with pytest.raises(SceneFaults, match=f'"{quantity}" needs the effect "elastic_contact"'):
+    with pytest.raises(SceneFaults, match=f'"{quantity}" needs the effects? "elastic_contact"'):
         read(text(SMALL), ["effects=[]", Override(("ask", "quantities"), [quantity], "test")])
 
 

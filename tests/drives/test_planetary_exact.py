@@ -47,14 +47,14 @@ TABLE_1 = {  # sources §4, Table 1, mm: sun, planet, ring; what the source has 
     "tip_thickness": ("1.304", "1.372", "1.616"),
 }
 MESHES = {
-    ("sun_planet", "ratio"): "1.50",
-    ("sun_planet", "contact_ratio"): "1.298",
-    ("sun_planet", "least_shift_of_sun_without_undercut"): "-0.170",
-    ("sun_planet", "least_shift_of_planet_without_undercut"): "-0.755",
-    ("planet_ring", "contact_ratio"): "1.424",
-    ("planet_ring", "contact_ratio_with_that_tip"): "1.450",
-    ("planet_ring", "planet_tip_diameter_of_this_mesh_alone"): "66.159",
-    ("planet_ring", "rho_active_end_of_ring_with_that_tip"): "39.588",
+    ("sun_and_planet", "ratio"): "1.50",
+    ("sun_and_planet", "contact_ratio"): "1.298",
+    ("sun_and_planet", "least_shift_of_sun_without_undercut"): "-0.170",
+    ("sun_and_planet", "least_shift_of_planet_without_undercut"): "-0.755",
+    ("planet_and_ring", "contact_ratio"): "1.424",
+    ("planet_and_ring", "contact_ratio_with_that_tip"): "1.450",
+    ("planet_and_ring", "planet_tip_diameter_of_this_mesh_alone"): "66.159",
+    ("planet_and_ring", "rho_active_end_of_ring_with_that_tip"): "39.588",
 }
 
 
@@ -87,7 +87,7 @@ def test_table_1_through_the_scene() -> None:
             assert digits(found[wheel][name], number) == number, (wheel, name)
     for (mesh, name), number in MESHES.items():
         assert digits(found[mesh][name], number) == number, (mesh, name)
-    angle = found["sun_planet"]["operating_pressure_angle"]
+    angle = found["sun_and_planet"]["operating_pressure_angle"]
     assert round(angle * 3600) == 25 * 3600 + 22 * 60 + 16
     for wheel, (d, m, s) in {"sun": (28, 43, 40), "planet": (27, 14, 9), "ring": (24, 21, 6)}.items():
         assert math.floor(3600 * found[wheel]["roller_pressure_angle"]) == 3600 * d + 60 * m + s
@@ -97,8 +97,8 @@ def test_table_1_through_the_scene() -> None:
 def test_blocking_contour_through_the_scene() -> None:
     """Sources §4: areas, volume, both ends of the line with what binds; the set's own shifts make the line."""
     found = answers("blocking_contour")["blocking_contour"]
-    assert found["sun_planet"]["area"] == pytest.approx(2.0870, abs=1e-4)
-    assert found["planet_ring"]["area"] == pytest.approx(10.0670, abs=1e-4)
+    assert found["sun_and_planet"]["area"] == pytest.approx(2.0870, abs=1e-4)
+    assert found["planet_and_ring"]["area"] == pytest.approx(10.0670, abs=1e-4)
     assert found["body"]["volume"] == pytest.approx(10.8081, abs=1e-4)
     line = found["coaxial_line"]
     low, high = line["lower_end"], line["upper_end"]
@@ -110,6 +110,27 @@ def test_blocking_contour_through_the_scene() -> None:
     )
     assert (low["binding"], high["binding"]) == ("ring tip in planet fillet", "planet tip in sun fillet")
     assert found["largest_contact_ratio"]["lesser_contact_ratio"] == pytest.approx(1.303, abs=5e-4)
+
+
+@pytest.mark.exact
+def test_boundaries_of_the_contours_are_in_the_dataset() -> None:
+    """Lengths by condition are those of the polygons, whose shoelace area is the one that is answered."""
+    run = Run(load(EXAMPLE, ['effects=[{type="inertia"}]', 'ask.quantities=["blocking_contour"]']))
+    area = values(run.quantity("blocking_contour"))["sun_and_planet"]["area"]
+    data = run.outcome.dataset
+    assert data is not None
+    points = data["sun_and_planet_boundary_points"].values
+    which = data["sun_and_planet_boundary"].values
+    total = covered = 0.0
+    for k in np.unique(which):
+        ring = points[which == k]
+        after = np.roll(ring, -1, axis=0)
+        total += float(np.hypot(*(after - ring).T).sum())
+        covered += 0.5 * float((ring[:, 0] * after[:, 1] - ring[:, 1] * after[:, 0]).sum())
+    lengths = data["sun_and_planet_boundary_length"]
+    assert float(lengths.sum()) == pytest.approx(total, rel=1e-12)
+    assert covered == pytest.approx(area, abs=1e-3)
+    assert {str(x) for x in lengths["sun_and_planet_condition"].values} >= {"undercut of the sun"}
 
 
 @pytest.mark.exact
@@ -125,9 +146,9 @@ def test_best_shifts_are_best_in_a_run_of_their_own() -> None:
         )
 
     contact = with_shifts("largest_contact_ratio")["contact_ratio"]
-    lesser = min(contact[mesh]["contact_ratio"] for mesh in contact)
+    lesser = min(contact[mesh]["transverse"] for mesh in contact)
     assert lesser == pytest.approx(found["largest_contact_ratio"]["lesser_contact_ratio"], rel=1e-12)
-    sliding = with_shifts("equal_specific_sliding")["profile"]["sun_planet"]
+    sliding = with_shifts("equal_specific_sliding")["profile"]["sun_and_planet"]
     promised = found["equal_specific_sliding"]["specific_sliding"]
     assert sliding["specific_sliding_sun"] == pytest.approx(promised, abs=1e-8)
     assert sliding["specific_sliding_planet"] == pytest.approx(promised, abs=1e-8)
@@ -160,7 +181,7 @@ def test_shifts_left_out_mesh_without_play() -> None:
     found = values(run.quantity("profile"))
     assert found["planet"]["shift"] == pytest.approx(0.6335961, abs=1e-7)
     assert found["ring"]["shift"] == pytest.approx(1.7671923, abs=1e-7)
-    assert abs(found["sun_planet"]["backlash"]) < 1e-6
+    assert abs(found["sun_and_planet"]["backlash"]) < 1e-6
     assert run.outcome.warnings == ()
 
 
@@ -177,6 +198,8 @@ def test_torques_and_powers_of_any_choice(fixed: str, driving: str, driven: str)
             f'drive.fixed="{fixed}"',
             f'drive.driving="{driving}"',
             f"operation.output_torque={torque}",
+            'effects=[{type="inertia"}]',
+            'ask.quantities=["reactions"]',
         ),
     )
     ratio, parts = found["ratio"], found["reactions"]
@@ -260,7 +283,7 @@ def test_phase_steps_are_those_of_the_paths() -> None:
     pitch = math.pi * 2e-3 * math.cos(math.radians(20))
     angle = np.array([0.0123])
     both = places(made.given, made.geometry, 0.2 * angle, 0.0 * angle)
-    for place, name in zip(both, ("sun_planet", "planet_ring"), strict=True):
+    for place, name in zip(both, ("sun_and_planet", "planet_and_ring"), strict=True):
         step = found[name]["phase_step"]
         assert step == pytest.approx(2.0 / 3.0)
         for planet in (1, 2):
@@ -323,13 +346,13 @@ def test_dataset_is_labelled_and_its_ends_are_the_answers() -> None:
         assert "units" in variable.attrs
     profile = answers("profile")["profile"]
     assert float(found["specific_sliding_sun"][0]) == pytest.approx(
-        profile["sun_planet"]["specific_sliding_sun"]
+        profile["sun_and_planet"]["specific_sliding_sun"]
     )
     assert float(found["specific_sliding_planet_on_sun"][-1]) == pytest.approx(
-        profile["sun_planet"]["specific_sliding_planet"]
+        profile["sun_and_planet"]["specific_sliding_planet"]
     )
     assert float(found["specific_sliding_ring"][-1]) == pytest.approx(
-        profile["planet_ring"]["specific_sliding_ring"]
+        profile["planet_and_ring"]["specific_sliding_ring"]
     )
 
 

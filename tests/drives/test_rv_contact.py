@@ -289,7 +289,7 @@ def test_answers_of_a_whole_run() -> None:
     made = Run(scene("accuracy.facets_per_lobe=6", "ask.positions=2", "accuracy.model=level0"))
     found = made.outcome
     assert all(check.ok for check in found.checks)
-    assert len(found.checks) == 8
+    assert len(found.checks) == 9
     efficiency = made.efficiency.value
     assert isinstance(efficiency, float)
     assert 0.9 < efficiency < 0.95

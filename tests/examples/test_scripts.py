@@ -96,3 +96,16 @@ def test_picture_of_a_run(small_run: Path, tmp_path: Path) -> None:
     assert len(stresses) == 2
     assert max(stresses) == pytest.approx(found["von_mises"]["stress"]["value"], abs=0.06)
     assert (tmp_path / "discs.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.property
+def test_stiffness_study(tmp_path: Path) -> None:
+    """stiffness_aware_reactions.py: the rigid limit is reached with stiff joints and left at a resonance."""
+    printed = script("stiffness_aware_reactions.py", tmp_path / "study.svg", "--points", 5)
+    soft, stiff = (float(x) for x in re.findall(r"([\d.e-]+) N with the (?:softest|stiffest)[ ,b]", printed))
+    assert soft > 20.0 * stiff
+    peak, last, rigid = (float(x) for x in re.findall(r"(?:up to|^ |rigid) +([\d.]+) N", printed, re.M)[-3:])
+    assert rigid == pytest.approx(121.19, abs=5e-3)  # largest R_A of sources §2
+    assert last == pytest.approx(rigid, rel=1e-4)
+    assert peak > 2.0 * rigid
+    assert (tmp_path / "study.svg").read_text().count("<path") > 50

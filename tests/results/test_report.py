@@ -170,6 +170,17 @@ def test_units_and_variants_are_told_apart(drawn: dict[str, Figure]) -> None:
     assert looks["elastic · bearing A · x"][1] == "dash"
 
 
+@pytest.mark.property
+def test_spectra_have_stems(drawn: dict[str, Figure]) -> None:
+    """A line of a spectrum is a marker whose stem goes down by its value, to the axis of any scale."""
+    for trace in drawn["Velocity spectrum"].spec["data"]:
+        assert trace["mode"] == "markers"
+        down, up = (_numbers(trace["error_y"][key]) for key in ("arrayminus", "array"))
+        np.testing.assert_array_equal(down, _numbers(trace["y"]))
+        assert not up.any()
+    assert all("error_y" not in trace for trace in drawn["Reactions"].spec["data"])
+
+
 @pytest.mark.exact
 def test_only_variables_with_a_figure_are_drawn(drawn: dict[str, Figure]) -> None:
     """natural_frequencies and the contact flags are for results.nc."""

@@ -179,7 +179,7 @@ def wrong_lobes(rng: np.random.Generator, raw: Tables) -> Refusal:
 
 
 def effect_missing(rng: np.random.Generator, raw: Tables) -> Refusal:
-    name = one_of(rng, [name for name, needs in NEEDS["khv"].items() if needs])
+    name = one_of(rng, [name for name, needs in NEEDS["khv"].items() if needs and name not in UNDER_TORQUE])
     effect = one_of(rng, NEEDS["khv"][name])
     raw["effects"] = [{"type": each} for each in EFFECTS if each != effect]
     raw["ask"]["quantities"] = ["ratio", name]

@@ -86,7 +86,7 @@ def test_the_usual_choice_of_members(fixed: str, driving: str, driven: str) -> N
             'type = "friction"',
             'effects.4.type: "friction" is not an effect of planetary drives',
         ),
-        ('"mass"', '"balance"', 'ask.quantities.15: "balance" is not offered by planetary; it offers: ratio'),
+        ('"mass"', '"balance"', 'ask.quantities.18: "balance" is not offered by planetary; it offers: ratio'),
     ],
 )
 def test_a_mistake_gives_a_message_at_its_line(old: str, new: str, said: str) -> None:
@@ -122,7 +122,10 @@ def asked(scene_text: str, overrides: list[str], quantities: tuple[str, ...] = C
     ("overrides", "said"),
     [
         (["drive.planets=3"], r"no multiple of 3\nthe nearest that can be built: planets = 4$"),
-        (["drive.planets=5"], r"5 planets of radius 33 mm .* collide: .*\nthe nearest that can be built: planets = 4$"),
+        (
+            ["drive.planets=5"],
+            r"5 planets of radius 33 mm .* collide: .*\nthe nearest that can be built: planets = 4$",
+        ),
         (["drive.center_distance=51"], r"20 and 30 teeth stand 52\.0006 mm apart .* not coaxial"),
         (
             ["drive.center_distance=40"],
@@ -133,12 +136,18 @@ def asked(scene_text: str, overrides: list[str], quantities: tuple[str, ...] = C
             r"30 and 81 teeth stand .* not coaxial\nthe nearest that can be built: z_ring = 80, x_sun",
         ),
         (["drive.x_sun=-0.4", "drive.x_planet=1.534", "drive.x_ring=2.668"], r"undercut of the sun"),
-        (["drive.ring_cutter.z=90"], r"cutter of 90 teeth for a ring of 80: it needs less(.|\n)*ring_cutter.z = 6"),
+        (
+            ["drive.ring_cutter.z=90"],
+            r"cutter of 90 teeth for a ring of 80: it needs less(.|\n)*ring_cutter.z = 6",
+        ),
         (
             ["drive.limits.contact_ratio=1.4"],
             r"contact ratio of sun and planet: 1\.29764, .* ≥ 1\.4\nthe nearest that can be built: center_distance = ",
         ),
-        (["drive.limits.contact_ratio=1.8"], r"no set near it can be built .*contact ratio of sun and planet: no"),
+        (
+            ["drive.limits.contact_ratio=1.8"],
+            r"no set near it can be built .*contact ratio of sun and planet: no",
+        ),
         (
             ["drive.sun.bore_radius=19"],
             r"sun\.bore_radius = 19 mm: nothing is left .* less than the root radius 18\.5",
@@ -156,9 +165,8 @@ def test_impossible_sets_are_refused_with_what_binds(overrides: list[str], said:
     """`run` says why and the nearest that would do; `check` says the same."""
     with pytest.raises(Infeasible, match=said):
         asked(TEXT, overrides)
-    if "roller" not in said:
-        with pytest.raises(Infeasible, match=said):
-            plan(read(TEXT, overrides))
+    with pytest.raises(Infeasible, match=said):
+        plan(read(TEXT, overrides))
 
 
 ODD = st.one_of(st.floats(-3.0, 3.0), st.floats(-1e9, 1e9), st.sampled_from([0.0, 1e-12, 1e-3, 1e3, 1e300]))
@@ -187,7 +195,7 @@ FIELDS = {
 
 @pytest.mark.property
 @given(data=st.data(), keys=st.sets(st.sampled_from(sorted(FIELDS)), max_size=6))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=120, deadline=None)
 def test_whatever_is_written_ends_in_numbers_or_in_reasons(data: st.DataObject, keys: set[str]) -> None:
     """Numbers, or SceneFaults, or Infeasible with a reason; never another exception, never a silent nan."""
     values = {key: data.draw(FIELDS[key], key) for key in sorted(keys)}
@@ -225,12 +233,15 @@ def test_advice_works_when_typed_in(data: st.DataObject, keys: set[str]) -> None
     values = {key: data.draw(FIELDS[key], key) for key in sorted(keys)}
     overrides = [RIGID, 'ask.quantities=["profile"]']
     overrides += [f"drive.{key}={value!r}" for key, value in values.items() if value is not None]
-    said = refusal(overrides)
+    try:
+        said = refusal(overrides)
+    except SceneFaults:
+        return
     if said is None:
         return
     advice = next((line for line in said if line.startswith(ADVISED)), None)
     if advice is None:
-        assert "no set near it can be built" in said[-1] or "drive" in said[0] or "bore_radius" in said[0]
+        assert "no set near it can be built" in said[-1] or "bore_radius" in said[0]
         return
     then = refusal(overrides + [f"drive.{each}" for each in advice.removeprefix(ADVISED).split(", ")])
     assert then is None or not any(line.startswith(ADVISED) for line in then)
@@ -238,11 +249,10 @@ def test_advice_works_when_typed_in(data: st.DataObject, keys: set[str]) -> None
 
 
 def refusal(overrides: list[str]) -> list[str] | None:
-    """Why `check` refuses the example with these overrides, None if it does not or the fields themselves are wrong."""
+    """Why `check` refuses the example with these overrides, None if it does not; raises SceneFaults."""
+    scene: Scene[Any] = read(TEXT, overrides)
     try:
-        plan(read(TEXT, overrides))
-    except SceneFaults:
-        return None
+        plan(scene)
     except Infeasible as reason:
         return str(reason).splitlines()
     return None

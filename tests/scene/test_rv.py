@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from trochoid.drives.rv.feasible import faults
 from trochoid.faults import SceneFaults
 from trochoid.kinematics.errors import Infeasible
-from trochoid.run import Run
+from trochoid.run import Run, plan
 from trochoid.scene import read
 from trochoid.starter import starter
 
@@ -125,3 +125,86 @@ def test_whatever_is_written_is_answered_or_refused(
         return
     for quantity in (run.profile, run.geometry_quality, run.contact_ratio, run.balance, run.mass):
         assert quantity.parts
+
+
+ADVISED = "the nearest that can be built: "
+STAGE = {
+    "z_sun": st.integers(6, 60),
+    "z_planet": st.integers(6, 120),
+    "cranks": st.integers(2, 6),
+    "module": st.floats(0.5, 4.0),
+    "center_distance": st.floats(20.0, 60.0),
+    "x_sun": st.floats(-3.0, 3.0),
+    "x_planet": st.floats(-3.0, 3.0),
+}
+
+
+@pytest.mark.property
+@settings(max_examples=40, deadline=None)
+@given(data=st.data(), keys=st.sets(st.sampled_from(sorted(STAGE)), min_size=1, max_size=3))
+def test_advice_works_when_typed_in(data: st.DataObject, keys: set[str]) -> None:
+    """The numbers of the message, put back into the scene: `check` passes, or states what the message stated."""
+    overrides = ['effects=[{type="inertia"}]', 'ask.quantities=["profile"]']
+    overrides += [f"drive.first_stage.{key}={data.draw(STAGE[key], key)!r}" for key in sorted(keys)]
+    said = refusal(overrides)
+    advice = next((line for line in said if line.startswith(ADVISED)), None)
+    if advice is None:
+        wrong = any(re.search("first_stage:|assembled|collide|coaxial", line) for line in said)
+        assert not wrong or "no first stage near can be built" in said[-1], said
+        return
+    then = refusal(overrides + [f"drive.{each}" for each in advice.removeprefix(ADVISED).split(", ")])
+    assert all(f"and with these: {each}" in said for each in then), (said, then)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("override", "said"),
+    [
+        ("carrier.outer_radius=10", "pillars stick out of the carrier; it must be at least 49 mm"),
+        ("carrier.pillars.circle_radius=20", ""),
+        ("ring.width=1", "must reach all discs; it must be at least the width of the pack, 19 mm"),
+        ("first_stage.z_planet=80", "the nearest that can be built: first_stage.z_planet = 44"),
+        (
+            "first_stage.center_distance=40",
+            'built: first_stage.center_distance = "38.7 mm", first_stage.x_sun',
+        ),
+        ("first_stage.center_distance=30", "more than a·cos α = 33.8289 mm"),
+        ("first_stage.cranks=5", "the nearest that can be built: first_stage.cranks = 3"),
+        ("first_stage.z_sun=500", "no first stage near can be built"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(override: str, said: str) -> None:
+    """Bodies that stick out of each other, and stages with what near them can be built."""
+    found = "\n".join(refusal([f"drive.{override}"]))
+    assert said in found
+    assert bool(found)
+    assert found.count("the nearest that can be built") <= 1
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("key", "value"), [("carrier.thickness", 1e19), ("ring.width", 1e9), ("arm_bearing.clearance", 1e7)]
+)
+def test_lengths_have_limits(key: str, value: float) -> None:
+    with pytest.raises(SceneFaults, match="at most 100000"):
+        read(TEXT, [f"drive.{key}={value!r}"])
+
+
+@pytest.mark.property
+@pytest.mark.filterwarnings("error")
+def test_a_bore_of_no_size_weighs_nothing() -> None:
+    """A hole whose area underflows takes nothing away, and says nothing."""
+    full, bored = (Run(read(TEXT, [f"drive.cycloid.bore_radius={r}"])).mass for r in ("1e-6", "1e-300"))
+    assert full.parts is not None
+    assert bored.parts is not None
+    assert bored.parts["discs"].value == pytest.approx(full.parts["discs"].value, rel=1e-12)  # type: ignore[union-attr]
+
+
+def refusal(overrides: list[str]) -> list[str]:
+    """Why `check` refuses the starter with these overrides; nothing if it does not."""
+    scene = read(TEXT, overrides)
+    try:
+        plan(scene)
+    except Infeasible as reason:
+        return str(reason).splitlines()
+    return []

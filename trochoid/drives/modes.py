@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trochoid.kinematics.types import Array
+from trochoid.kinematics.types import Array, ComplexArray
 from trochoid.results.plot import Axis, Plot, PlotCurve
 
 NAMED = 0.2  # share of the energy from which a motion is named
@@ -39,6 +39,24 @@ def shares(energy: Array, names: Sequence[str]) -> dict[str, float]:
         whole[name] = whole.get(name, 0.0) + float(part)
     total = sum(whole.values()) or 1.0
     return {name: whole[name] / total for name in sorted(whole, key=lambda name: -whole[name])}
+
+
+def heard(
+    across: ComplexArray, weight: Array, along: ComplexArray, other: Array, own: float, speed: float
+) -> tuple[float, str]:
+    """Return the frequency (Hz) at which the fixed frame hears most of a mode of a frame that turns, and its sense.
+
+    The frame turns with `speed` (rad/s), the mode has `own` Hz there: motions `across` its axis (a, 2) and `along` or
+    about it (b,), with their masses.  x + iy turns once more with the frame, so half of it moves up, half of it down.
+    """
+    turn = speed / (2.0 * np.pi)
+    x, y = across.T
+    up, down = (0.5 * float((weight * np.abs(x + sign * 1j * y) ** 2).sum()) for sign in (1.0, -1.0))
+    if float((other * np.abs(along) ** 2).sum()) >= max(up, down):
+        return own, ""
+    if up >= down:
+        return turn + own, "forward"
+    return abs(turn - own), "forward" if turn > own else "backward"
 
 
 def campbell_plot(

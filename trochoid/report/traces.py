@@ -1,4 +1,4 @@
-"""The plotly traces of one row: lines, or a map."""
+"""The plotly traces of one row: lines, stems of a spectrum, or a map."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from trochoid.report.curves import Curve
 from trochoid.report.panels import Panel
 
 _MANY = 10  # curves beyond which lines are thin
+_SYMBOLS = ("circle", "circle-open", "diamond", "diamond-open")
 _NOISE = 1e-12  # of the largest value is shown as zero
 _DECADES = 5  # of a logarithmic axis below its largest value; under that is rounding
 
@@ -29,10 +30,12 @@ def lines(panel: Panel, named: set[str], legend: str) -> list[dict[str, Any]]:
     for curve in panel.curves:
         name = panel.name(curve)
         color = colors[curve.label if colored is places else curve.variable]
-        dash = style.DASHES[variables.index(curve.variable) % len(style.DASHES) if colored is places else 0]
+        variant = variables.index(curve.variable) if colored is places else 0
+        dash = style.DASHES[variant % len(style.DASHES)]
         line = {"color": color, "width": 1.1 if len(panel.curves) > _MANY else 1.8, "dash": dash}
         shown = {"name": name, "legendgroup": name, "showlegend": name not in named, "legend": legend}
-        traces.append(_line(curve, panel) | shown | {"line": line})
+        look = _stems(curve, panel, color, variant) if curve.spectrum else {"line": line}
+        traces.append(_line(curve, panel) | shown | look)
         named.add(name)
     return traces
 
@@ -60,11 +63,25 @@ def heat_map(panel: Panel, domain: tuple[float, float], limits: tuple[float, flo
 def _line(curve: Curve, panel: Panel) -> dict[str, Any]:
     return {
         "type": "scatter",
-        "mode": "lines+markers" if curve.spectrum else "lines",
+        "mode": "markers" if curve.spectrum else "lines",
         "x": style.packed(curve.x * panel.x_unit.factor),
         "y": style.packed(_cleaned(curve, panel.largest) * panel.unit.factor),
-        "marker": {"size": 5},
         "hovertemplate": f"%{{y:.5~g}} {panel.unit.symbol}<extra>{panel.name(curve)}</extra>",
+    }
+
+
+def _stems(curve: Curve, panel: Panel, color: str, variant: int) -> dict[str, Any]:
+    """Return the look of a spectrum: a marker at every line, with a stem down to the axis, of any scale."""
+    down = style.packed(_cleaned(curve, panel.largest) * panel.unit.factor)
+    stem = {
+        "type": "data",
+        "symmetric": False,
+        "array": style.packed(np.zeros(curve.y.size)),
+        "arrayminus": down,
+    }
+    return {
+        "marker": {"size": 5, "color": color, "symbol": _SYMBOLS[variant % len(_SYMBOLS)]},
+        "error_y": stem | {"width": 0, "thickness": 1.1, "color": color},
     }
 
 

@@ -19,5 +19,5 @@ class Accuracy(Table):
     """[accuracy]: the tolerance that picks the model, or the model itself."""
 
     tolerance: Fraction = 1e-2
-    model: Literal["springs", "level0", "strips"] | None = None
+    model: Literal["springs", "level0", "strips", "slices"] | None = None
     facets_per_lobe: Annotated[int, Whole(4, 200)] | None = None

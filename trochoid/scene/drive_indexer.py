@@ -25,6 +25,16 @@ Swing = Annotated[float, Measure(units.ANGLE, least=1.0, most=359.0)]
 AxisAngle = Annotated[float, Measure(units.ANGLE, least=1.0, most=179.0)]
 PinRatio = Annotated[float, Measure(units.NUMBER, least=1e-3, most=1e3)]
 Tolerance = Annotated[float, Measure(units.ANGLE, above=0.0, most=10.0)]
+Torsion = Annotated[float, Measure(units.TILT, above=0.0)]
+
+
+class Pin(Table):
+    """[drive.pin]: how the pin is shaped and held, for elastic contact; its radius is the drive's."""
+
+    shape: Literal["cylinder", "cone", "barrel"] = "cylinder"
+    crown_radius: PositiveLength = 0.2
+    overhang: Play = 0.001
+    play: Play = 0.00002
 
 
 class Wheel(Table):
@@ -35,6 +45,24 @@ class Wheel(Table):
     slot_length: PositiveLength | None = None
     slot_clearance: Play = 0.0
     inertia: Inertia | None = None
+    wall_depth: PositiveLength | None = None
+    lock_stiffness: Torsion | None = None
+
+
+class OutputShaft(Table):
+    """[drive.output_shaft]: what the wheel drives, and the shaft between the two, rigid if it has no stiffness."""
+
+    inertia: Inertia | None = None
+    stiffness: Torsion | None = Field(default=None, validate_default=True)
+
+    @field_validator("stiffness")
+    @classmethod
+    def _needs_a_mass(cls, stiffness: float | None, info: ValidationInfo) -> float | None:
+        if stiffness is not None and info.data.get("inertia", 1.0) is None:
+            raise fault(
+                "given without drive.output_shaft.inertia; a shaft without a mass at its end twists by nothing"
+            )
+        return stiffness
 
 
 def _pin_on_sphere(data: dict[str, Any]) -> float:
@@ -56,7 +84,9 @@ class IndexerDrive(DriveTable):
     sphere_radius: PositiveLength = 0.1
     pin_radius: PositiveLength = Field(default_factory=_pin_on_sphere)
     dwell_tolerance: Tolerance = math.radians(0.1)
+    pin: Pin = Pin()
     wheel: Wheel = Wheel()
+    output_shaft: OutputShaft = OutputShaft()
 
     @field_validator("pin_ratio")
     @classmethod

@@ -7,7 +7,17 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import Field, ValidationInfo, field_validator
 
 from trochoid.scene import units
-from trochoid.scene.fields import AnyStiffness, DriveTable, Measure, Stiffness, Table, Whole, fault
+from trochoid.scene.fields import (
+    AnyStiffness,
+    DriveTable,
+    Inertia,
+    Mass,
+    Measure,
+    Stiffness,
+    Table,
+    Whole,
+    fault,
+)
 from trochoid.scene.model import Scene
 
 Member = Literal["sun", "ring", "carrier"]
@@ -69,10 +79,27 @@ class RingBody(Table):
 
 
 class CarrierBody(Table):
-    """[drive.carrier]: what it floats on."""
+    """[drive.carrier]: what it floats on, what it weighs."""
 
     bearing_stiffness: AnyStiffness = 3e8
     torsional_stiffness: Torsion | None = None
+    mass: Mass | None = None
+    inertia: Inertia | None = None
+
+
+class MeshLead(Table):
+    """[drive.lead.sun_and_planet], [drive.lead.planet_and_ring]: how the gap changes over the face width of a mesh."""
+
+    misalignment: PlaceError = 0.0
+    crown: Relief = 0.0
+
+
+class Lead(Table):
+    """[drive.lead]: load over the face width, in slices."""
+
+    slices: Annotated[int, Whole(3, 101)] = 15
+    sun_and_planet: MeshLead = MeshLead()
+    planet_and_ring: MeshLead = MeshLead()
 
 
 def _usual_driving(data: dict[str, Any]) -> Member:
@@ -109,6 +136,7 @@ class PlanetaryDrive(DriveTable):
     planet: PlanetBody = PlanetBody()
     ring: RingBody = RingBody()
     carrier: CarrierBody = CarrierBody()
+    lead: Lead | None = None
 
     @field_validator("z_ring")
     @classmethod

@@ -21,8 +21,9 @@ from trochoid.scene.fields import (
     fault,
 )
 from trochoid.scene.model import Scene
+from trochoid.scene.precessional_teeth import Rim, Rollers
 
-NutationAngle = Annotated[float, Measure(units.ANGLE, above=0.0, below=90.0)]
+NutationAngle = Annotated[float, Measure(units.ANGLE, least=1e-6, below=90.0)]
 PolarAngle = Annotated[float, Measure(units.ANGLE, above=0.0, most=90.0)]
 PinAngle = Annotated[float, Measure(units.ANGLE, above=0.0, below=90.0)]
 ProductOfInertia = Annotated[float, Measure(units.INERTIA)]
@@ -183,6 +184,8 @@ class PrecessionalDrive(DriveTable):
     bearing_b: Support | None = None
     joint_o: Joint | None = None
     teeth: Teeth | None = None
+    rollers: Rollers = Rollers()
+    rim: Rim = Rim()
 
     @field_validator("z_satellite")
     @classmethod

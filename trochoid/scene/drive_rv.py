@@ -9,11 +9,8 @@ from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 from trochoid.scene import units
 from trochoid.scene.fields import (
     DriveTable,
-    Length,
     Mass,
     Measure,
-    Play,
-    PositiveLength,
     Stiffness,
     Table,
     Whole,
@@ -23,6 +20,9 @@ from trochoid.scene.model import Scene
 
 PressureAngle = Annotated[float, Measure(units.ANGLE, least=14.0, most=30.0)]
 Shift = Annotated[float, Measure(units.NUMBER, least=-3.0, most=3.0)]
+Size = Annotated[float, Measure(units.LENGTH, above=0.0, most=1e5)]
+SmallSize = Annotated[float, Measure(units.LENGTH, least=0.0, most=1e5)]
+Place = Annotated[float, Measure(units.LENGTH, least=-1e5, most=1e5)]
 
 
 def _ascending(positions: tuple[float, float]) -> tuple[float, float]:
@@ -33,14 +33,14 @@ def _ascending(positions: tuple[float, float]) -> tuple[float, float]:
     return positions
 
 
-BearingPositions = Annotated[tuple[Length, Length], AfterValidator(_ascending)]
+BearingPositions = Annotated[tuple[Place, Place], AfterValidator(_ascending)]
 
 
 class Modification(Table):
     """[drive.cycloid.modification]: deviation of the ground flank from the theoretical one."""
 
-    equidistant: Length = 0.0
-    radial: Length = 0.0
+    equidistant: Place = 0.0
+    radial: Place = 0.0
     rotation: Annotated[float, Measure(units.ANGLE)] = 0.0
 
 
@@ -54,14 +54,14 @@ class CycloidStage(Table):
 
     pins: Annotated[int, Whole(4, 1000)]
     lobes: Annotated[int, Whole(3, 999)] = Field(default_factory=_one_less_than_pins)
-    pin_circle_radius: PositiveLength
-    pin_radius: PositiveLength
-    eccentricity: PositiveLength
+    pin_circle_radius: Size
+    pin_radius: Size
+    eccentricity: Size
     discs: Annotated[int, Whole(1, 4)] = 2
-    face_width: PositiveLength
-    disc_gap: Play = 0.002
-    bore_radius: PositiveLength
-    pin_clearance: Play = 0.0
+    face_width: Size
+    disc_gap: SmallSize = 0.002
+    bore_radius: Size
+    pin_clearance: SmallSize = 0.0
     modification: Modification = Modification()
 
     @field_validator("lobes")
@@ -80,14 +80,14 @@ class FirstStage(Table):
 
     z_sun: Annotated[int, Whole(6, 500)]
     z_planet: Annotated[int, Whole(6, 1000)]
-    module: PositiveLength
+    module: Size
     cranks: Annotated[int, Whole(2, 6)] = 3
     pressure_angle: PressureAngle = units.ANGLE.to_si(20.0)
     x_sun: Shift | None = None
     x_planet: Shift | None = None
-    center_distance: PositiveLength | None = None
-    face_width: PositiveLength
-    backlash: Play = 0.0
+    center_distance: Size | None = None
+    face_width: Size
+    backlash: SmallSize = 0.0
     mesh_stiffness: Stiffness | None = None
     sun_stiffness: Stiffness = 2e7
 
@@ -95,18 +95,18 @@ class FirstStage(Table):
 class ArmBearing(Table):
     """[drive.arm_bearing]: turning-arm bearing, rollers between an eccentric and the crank hole of a disc."""
 
-    hole_radius: PositiveLength
+    hole_radius: Size
     rollers: Annotated[int, Whole(3, 200)]
-    roller_radius: PositiveLength
-    roller_length: PositiveLength
-    clearance: Play = 0.0
+    roller_radius: Size
+    roller_length: Size
+    clearance: SmallSize = 0.0
 
 
 class Crankshaft(Table):
     """[drive.crankshaft]: one of the equal crankshafts, on two bearings in the carrier."""
 
-    radius: PositiveLength
-    planet_position: Length
+    radius: Size
+    planet_position: Place
     bearing_positions: BearingPositions
     bearing_stiffness: Stiffness
 
@@ -114,16 +114,17 @@ class Crankshaft(Table):
 class Pillars(Table):
     """[drive.carrier.pillars]: round pillars between the carrier's two sides, through windows of the discs."""
 
-    circle_radius: PositiveLength
-    radius: PositiveLength
-    gap: Play = 0.0005
+    circle_radius: Size
+    radius: Size
+    gap: SmallSize = 0.0005
 
 
 class Carrier(Table):
     """[drive.carrier]: the output, two sides of the pack joined by pillars."""
 
-    outer_radius: PositiveLength
-    thickness: PositiveLength
+    outer_radius: Size
+    thickness: Size
+    bearing_positions: BearingPositions | None = None
     pillars: Pillars | None = None
     mass: Mass | None = None
 
@@ -131,8 +132,8 @@ class Carrier(Table):
 class Ring(Table):
     """[drive.ring]: the body that holds the ring pins."""
 
-    outer_radius: PositiveLength
-    width: PositiveLength
+    outer_radius: Size
+    width: Size
 
 
 class RvDrive(DriveTable):

@@ -65,6 +65,18 @@ class Friction(Table):
     teeth: Coefficient = 0.05
 
 
+class TimeVaryingStiffness(Table):
+    """The stiffness of the contacts varies with the input angle, in torsional vibration."""
+
+    type: Literal["time_varying_stiffness"]
+
+
+class Backlash(Table):
+    """Contacts may leave each other and cross their play, in torsional vibration."""
+
+    type: Literal["backlash"]
+
+
 AnyEffect: TypeAlias = (
     ElasticContact
     | PinCompliance
@@ -74,6 +86,8 @@ AnyEffect: TypeAlias = (
     | InertiaForces
     | CasingOnMounts
     | Friction
+    | TimeVaryingStiffness
+    | Backlash
 )
 Effect: TypeAlias = Annotated[AnyEffect, Field(discriminator="type")]
 EFFECTS: tuple[str, ...] = tuple(

@@ -8,7 +8,7 @@ from trochoid.drives.exact import RPM
 from trochoid.drives.indexer.design import GENEVA, INDEXER
 from trochoid.drives.indexer.measures import Measured
 from trochoid.drives.indexer.stages import Stages
-from trochoid.drives.indexer.words import FAULT_WORDS, name_of
+from trochoid.drives.indexer.words import FAULT_WORDS
 from trochoid.kinematics.indexer_measure import dwell_within, similarity
 from trochoid.kinematics.indexer_synthesis import Solution
 from trochoid.results.outcome import Parts, Quantity
@@ -32,10 +32,10 @@ def member_speeds(s: Stages) -> Quantity:
         "arm": arm,
         "planet_on_arm": m * arm,
         "planet": math.sqrt(1.0 + m * m + 2.0 * m * math.cos(path.arm)) * arm,
-        "wheel_mean": mean,
+        "wheel_mean_speed": mean,
     }
     for name, found in s.measured.items():
-        key = "wheel_peak" if name == INDEXER else f"{name}_peak"
+        key = "wheel_peak_speed" if name == INDEXER else f"{name}_peak_speed"
         values[key] = -found.indexer.sense * found.peaks.velocity * arm
     note = "about each member's own axis; wheel: negative where against the arm, as in an outer Geneva drive"
     return Quantity(parts={name: _exact(value, "rpm") for name, value in values.items()}, note=note)
@@ -72,46 +72,51 @@ def _motion(s: Stages, found: Measured) -> Parts:
         "B": _exact(constants.velocity),
         "C": _exact(constants.acceleration),
         "N_constant": _exact(constants.power),
-        "soft_shock_constant": _exact(constants.start),
+        "soft_shock_constant": _exact(_settled(constants.start, constants.acceleration)),
         "velocity_max": _exact(top.velocity * speed, "rad/s"),
         "acceleration_max": _exact(top.acceleration * speed**2, "rad/s^2"),
-        "acceleration_at_start": _exact(top.start * speed**2, "rad/s^2"),
+        "acceleration_at_start": _exact(_settled(top.start, top.acceleration) * speed**2, "rad/s^2"),
         "power_max_per_inertia": _exact(top.power * speed**3, "W/(kg*m^2)"),
         "velocity_max_at": _degrees(top.velocity_at),
         "acceleration_max_at": _degrees(top.acceleration_at),
         "power_max_at": _degrees(top.power_at),
-        "hard_shock": _exact(found.shock * speed, "rad/s"),
+        "hard_shock": _exact(_settled(found.shock, top.velocity) * speed, "rad/s"),
     }
 
 
 def solutions(s: Stages) -> Quantity:
     """Every pin path without hard shock for the task, in both trains, and what keeps others from serving."""
     made = s.design
-    serving: dict[str, Parts | Quantity] = {}
-    failing: dict[str, Parts | Quantity] = {}
+    rows: dict[str, Parts] = {}
     for i, found in enumerate(made.solutions, 1):
-        name = f"{i} {name_of(found)}"
-        if not found.fault:
-            serving[name + (" (chosen)" if _same(found, made.chosen) else "")] = _row(found)
-        else:
-            path = found.indexer.path
-            where = f"k {found.indexer.duration:.4g}, ρ {path.pin_ratio:.4g}, γ {math.degrees(path.arm):.5g}°"
-            failing[name] = Quantity(FAULT_WORDS[found.fault], model="exact", note=where)
-    note = f"{len(serving)} of {len(made.solutions)} serve"
-    return Quantity(parts={"serve": serving} | ({"do_not_serve": failing} if failing else {}), note=note)
+        path = found.indexer.path
+        verdict = f"no, {FAULT_WORDS[found.fault]}" if found.fault else "yes"
+        row: dict[str, Quantity] = {
+            "train": Quantity(found.kind, model="exact"),
+            "place": Quantity(found.place, model="exact"),
+            "serves": Quantity("chosen" if _same(found, made.chosen) else verdict, model="exact"),
+            "relative_turning_time": _exact(found.indexer.duration),
+            "pin_ratio": _exact(path.pin_ratio),
+            "arm_angle": _degrees(path.arm),
+            "pin_angle": _degrees(path.pin),
+        }
+        rows[f"solution_{i}"] = row if found.fault else row | _constants(found)
+    serving = sum(not found.fault for found in made.solutions)
+    return Quantity(parts=rows, note=f"{serving} of {len(made.solutions)} serve")
 
 
-def _row(found: Solution) -> Parts:
-    made, constants = found.indexer, similarity(found.indexer)
+def _constants(found: Solution) -> dict[str, Quantity]:
+    constants = similarity(found.indexer)
     return {
-        "relative_turning_time": _exact(made.duration),
-        "pin_ratio": _exact(made.path.pin_ratio),
-        "arm_angle": _degrees(made.path.arm),
-        "pin_angle": _degrees(made.path.pin),
         "B": _exact(constants.velocity),
         "C": _exact(constants.acceleration),
-        "soft_shock_constant": _exact(constants.start),
+        "soft_shock_constant": _exact(_settled(constants.start, constants.acceleration)),
     }
+
+
+def _settled(value: float, scale: float) -> float:
+    """The value, 0 where it is rounding beside `scale`."""
+    return value if abs(value) > 1e-12 * abs(scale) else 0.0
 
 
 def _same(one: Solution, other: Solution) -> bool:

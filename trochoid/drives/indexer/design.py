@@ -73,12 +73,22 @@ def wish(drive: IndexerDrive) -> Wish:
 def _refused(drive: IndexerDrive, found: tuple[Solution, ...]) -> Solution:
     """Raise Infeasible with what binds, the nearest swing, and what serves in its place."""
     try:
-        return synthesise(task(drive), wish(drive))
+        return synthesise(task(drive), wish(drive), lambda other, x: _has_room(drive, other, x))
     except Infeasible as refusal:
         others = dict.fromkeys(f'train = "{x.kind}", place = "{x.place}"' for x in found if not x.fault)
         if not others:
             raise
         raise Infeasible(f"{refusal}; all else the same, {' or '.join(others)} serves") from None
+
+
+def _has_room(drive: IndexerDrive, other: Task, solution: Solution) -> bool:
+    """Whether pin and wheel of the scene go with a solution for another swing."""
+    from trochoid.drives.indexer.feasible import faults
+    from trochoid.kinematics.indexer_slot import slot
+
+    turned = drive.model_copy(update={"swing_angle": other.swing})
+    made = Design(turned, 1.0, (solution,), solution, {INDEXER: solution.indexer})
+    return not faults(made, slot(solution.indexer))
 
 
 def design(scene: IndexerScene) -> Design:

@@ -10,6 +10,8 @@ from trochoid.scene.drive_indexer import IndexerScene
 
 _GEOMETRY = ("synthesis", "geometry")
 _FORCES = (*_GEOMETRY, "mass", "forces")
+_CONTACT = (*_FORCES, "contact")
+_VIBRATION = (*_CONTACT, "vibration")
 
 STAGES_OF: dict[str, tuple[str, ...]] = {
     "ratio": ("synthesis",),
@@ -19,6 +21,11 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "profile": _GEOMETRY,
     "geometry_quality": ("synthesis", "motion", "geometry"),
     "contact_force_max": _FORCES,
+    "contact_pressure_max": _CONTACT,
+    "mesh_stiffness": _CONTACT,
+    "torsional_stiffness": _CONTACT,
+    "dynamic_factor": _VIBRATION,
+    "residual_vibration": _VIBRATION,
     "reactions": _FORCES,
     "mass": (*_GEOMETRY, "mass"),
 }
@@ -29,12 +36,14 @@ WHY = {
     "geometry": "can it be made: length of slots, walls, hub",
     "mass": "mass and inertia of the wheel",
     "forces": "pin force, mesh force and input torque over an index",
+    "contact": "pin and wall of the slot as elastic bodies: pressure and stiffness over an index",
+    "vibration": "the elastic wheel over an index and its dwell, marched in steps of its shortest period",
 }
 
 
 def plan(scene: IndexerScene) -> Plan:
     """Return what a run would do; raises Infeasible when no pin path serves or the wheel cannot be built."""
-    made = planned(scene, WHY, STAGES_OF, {"synthesis": 0.03})
+    made = planned(scene, WHY, STAGES_OF, {"synthesis": 0.03, "contact": 0.3, "vibration": 1.5})
     stages = Stages(scene, Clock())
     stages.design  # noqa: B018 - raises Infeasible with what binds and the nearest swing
     if any(stage.needed and stage.name == "geometry" for stage in made.stages):

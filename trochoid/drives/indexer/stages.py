@@ -16,6 +16,8 @@ from trochoid.scene.drive_indexer import IndexerScene
 if TYPE_CHECKING:
     from trochoid.drives.indexer.forces import Forces
     from trochoid.drives.indexer.measures import Measured
+    from trochoid.drives.indexer.pin import Pair
+    from trochoid.drives.indexer.shaken import Shaken
     from trochoid.drives.indexer.wheel import WheelMass
 
 
@@ -56,6 +58,10 @@ class Stages:
             from trochoid.drives.indexer.feasible import faults
 
             reasons = faults(made, travel["indexer"])
+            if self.scene.has("elastic_contact"):
+                from trochoid.drives.indexer.pin import pin_faults
+
+                reasons += pin_faults(made)
             if reasons:
                 raise Infeasible("\n".join(reasons))
         return made
@@ -76,8 +82,27 @@ class Stages:
         with self.clock.stage("forces"):
             from trochoid.drives.indexer.forces import Load, forces
 
-            inertia = wheel.used if self.scene.has("inertia") else 0.0
+            inertia = wheel.used + (self.scene.drive.output_shaft.inertia or 0.0)
+            inertia = inertia if self.scene.has("inertia") else 0.0
             load = Load(
                 made.speed, inertia, self.scene.operation.output_torque, self.scene.drive.sphere_radius
             )
             return {name: forces(indexer, load) for name, indexer in made.mechanisms.items()}
+
+    @cached_property
+    def pairs(self) -> Mapping[str, Pair]:
+        """Pin and slot of both mechanisms as elastic pairs."""
+        made, loads = self.feasible, self.forces
+        with self.clock.stage("contact"):
+            from trochoid.drives.indexer.pin import pairs
+
+            return pairs(self.scene, made, self.slots, loads)
+
+    @cached_property
+    def shaken(self) -> Mapping[str, Shaken]:
+        """Response of wheel and output over an index and its dwell, of the Geneva wheel also in the same time."""
+        loaded, wheel = self.pairs, self.wheel
+        with self.clock.stage("vibration"):
+            from trochoid.drives.indexer.shaken import shaken
+
+            return shaken(self.scene, wheel, loaded)

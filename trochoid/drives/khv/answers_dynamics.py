@@ -113,8 +113,8 @@ def natural_frequencies(s: Stages) -> Quantity:
         value = number(s, s.modes.map(_frequency(i)), "Hz")
         parts[f"mode_{i + 1}"] = replace(value, note=mode.words)
     said = [
-        "undamped, input held, mean stiffness over the turn, which departs from it by up to "
-        f"{100.0 * found.stiffness_variation:.2g} %"
+        "undamped, as the fixed frame hears them, with the mean stiffness that the turning eccentric sees, which "
+        f"departs from it by up to {100.0 * found.stiffness_variation:.2g} %"
     ]
     if found.free:
         said.append(f"{found.free} motions are free within their play")
@@ -123,7 +123,9 @@ def natural_frequencies(s: Stages) -> Quantity:
 
 def _frequency(i: int) -> Callable[[NaturalModes], float]:
     def get(found: NaturalModes) -> float:
-        return found.modes[min(i, len(found.modes) - 1)].frequency  # a coarser mesh may leave more of them free
+        return found.modes[
+            min(i, len(found.modes) - 1)
+        ].frequency  # a coarser mesh may leave more of them free
 
     return get
 

@@ -28,6 +28,13 @@ ABSENT_EFFECTS = {
         "without a response to it."
     ),
     "casing_on_mounts": "The casing stands still: there is no vibration velocity and no zone to judge it by.",
+    "time_varying_stiffness": (
+        "Torsional vibration has the mean stiffness of the contacts over the turn: nothing can excite itself."
+    ),
+    "backlash": (
+        "In torsional vibration contacts hold on to each other where they would part: there are no jumps, and no "
+        "hammering within the play."
+    ),
     "friction": (
         "Contact forces are normal to the surfaces: no losses, no efficiency, no hysteresis; friction turns real "
         "contact forces by a few degrees, and with them the bearing loads."

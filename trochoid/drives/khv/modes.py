@@ -1,7 +1,10 @@
 """Natural frequencies of discs, shaft and flange on the tangent stiffness of all contacts and bearings.
 
-The stiffness is the mean over a turn, at the scene's torque; contacts that come and go are in the mean by their share.
-Shaft and flange spin: their tilting has gyroscopic terms.  The input is held, as in the torsional stiffness.
+The loaded pins go round with the eccentric.  In its frame the stiffness hardly varies, and its mean over a turn counts;
+in the fixed frame that mean would lose what couples turning with moving across, and come out far too stiff.  The frame
+turns: Coriolis and centrifugal terms, and gyroscopic ones of shaft and flange that spin and tilt, belong to it.  Each
+frequency is given where the fixed frame hears most of it.  The input turns evenly, and the scene's torque loads the
+contacts, at any speed.
 """
 
 from __future__ import annotations
@@ -15,7 +18,7 @@ from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.mass import Masses
 from trochoid.drives.khv.reactions import frames, mass_matrix
 from trochoid.drives.khv.series import Series
-from trochoid.drives.modes import CLOSE, Mode, campbell_plot, shares
+from trochoid.drives.modes import CLOSE, Mode, campbell_plot, heard, shares
 from trochoid.dynamics.system import System
 from trochoid.dynamics.whirl import whirl
 from trochoid.kinematics.types import Array, frozen
@@ -46,54 +49,87 @@ class NaturalModes:
 
 def natural_modes(design: Design, series: Series, masses: Masses) -> NaturalModes:
     """Return the modes at the scene's speed and torque."""
-    system = assembled(design, series, masses)(design.crank_speed)
-    found = whirl(system)
-    names = [spoken(name) for name in series.names]
-    energy = np.diag(system.mass)[:, None] * np.abs(found.shapes) ** 2
-    modes = tuple(
-        Mode(float(frequency), shares(energy[:, i], names)) for i, frequency in enumerate(found.frequency)
-    )
-    return NaturalModes(modes, system.size - len(modes), _variation(series))
+    modes = _modes(assembled(design, series, masses), design.crank_speed)
+    return NaturalModes(modes, len(series.names) - len(modes), _variation(_on_the_eccentric(series)))
+
+
+def _modes(at: Callable[[float], System], speed: float) -> tuple[Mode, ...]:
+    """Return the modes at a speed of the eccentric (rad/s) by rising frequency."""
+    system = at(speed)
+    found, mass = whirl(system), np.diag(system.mass)
+    names = [spoken(name) for name in system.names]
+    pairs = np.array(_pairs(system.names), dtype=np.int64).reshape(-1, 2)
+    alone = np.array([i for i, name in enumerate(system.names) if name.endswith("rotation")])
+    made = []
+    for i, own in enumerate(found.frequency):
+        shape = found.shapes[:, i]
+        frequency, turns = heard(
+            shape[pairs], mass[pairs[:, 0]], shape[alone], mass[alone], float(own), speed
+        )
+        made.append(Mode(frequency, shares(mass * np.abs(shape) ** 2, names), turns))
+    return tuple(sorted(made, key=lambda mode: mode.frequency))
 
 
 def assembled(design: Design, series: Series, masses: Masses) -> Callable[[float], System]:
-    """Return crank speed (rad/s) → the undamped system on the motions of the series, in the fixed frame."""
-    turn = float(design.speeds.members["ring"]) * series.angle
-    turned = frames(series.names, turn)
-    stiffness = np.einsum("nij,njk,nlk->nil", turned, series.stiffness, turned)[:-1].mean(axis=0)
+    """Return crank speed (rad/s) → the undamped system on the motions of the series, in the frame of the eccentric."""
+    stiffness = _on_the_eccentric(series).mean(axis=0)
     stiffness = 0.5 * (stiffness + stiffness.T)
     mass = mass_matrix(design, series.names, masses)
-    spinning = _gyroscopic(design, series.names, masses, mass)
+    gyroscopic, centrifugal = _turning(design, series.names, masses, mass)
 
     def at(speed: float) -> System:
-        gyroscopic = frozen(speed * spinning) if spinning.any() else None
         return System(
-            frozen(mass), frozen(np.zeros_like(mass)), frozen(stiffness), gyroscopic, tuple(series.names)
+            frozen(mass),
+            frozen(np.zeros_like(mass)),
+            frozen(stiffness + speed**2 * centrifugal),
+            frozen(speed * gyroscopic),
+            tuple(series.names),
         )
 
     return at
 
 
-def _gyroscopic(design: Design, names: tuple[str, ...], masses: Masses, mass: Array) -> Array:
-    """Return the gyroscopic matrix (k, k) at 1 rad/s of the crank: the momentum turns with the tilting member."""
-    matrix = np.zeros((len(names), len(names)))
-    speeds = design.speeds.members
+def _on_the_eccentric(series: Series) -> Array:
+    """Return the stiffness (n, k, k) over a turn, as the turning eccentric sees it."""
+    turned = frames(series.names, -series.crank)
+    return np.asarray(np.einsum("nij,njk,nlk->nil", turned, series.stiffness, turned)[:-1])
+
+
+def _pairs(names: tuple[str, ...]) -> list[tuple[int, int]]:
+    """Return the places of the motions x and y, tilt_x and tilt_y, of each member."""
+    found = []
+    for first, second in (("x", "y"), ("tilt_x", "tilt_y")):
+        for name in names:
+            member, motion = name.split(".")
+            if motion == first:
+                found.append((names.index(name), names.index(f"{member}.{second}")))
+    return found
+
+
+def _turning(design: Design, names: tuple[str, ...], masses: Masses, mass: Array) -> tuple[Array, Array]:
+    """Return gyroscopic and centrifugal matrices (k, k) for 1 rad/s of the eccentric, as in dynamics.turning.
+
+    Across: 2 m Ω × and −m Ω²; tilting: (2 J Ω − H) × and −(J Ω − H) Ω with the momentum H about z.
+    """
+    gyroscopic, centrifugal = np.zeros((2, len(names), len(names)))
     momenta = {"shaft": masses.shaft.axial_inertia}
     if "output.rotation" in names:
         place = names.index("output.rotation")
-        momenta["output"] = float(mass[place, place]) * float(speeds["output"])
-    for member, momentum in momenta.items():
-        if f"{member}.tilt_x" in names:
-            x, y = names.index(f"{member}.tilt_x"), names.index(f"{member}.tilt_y")
-            matrix[x, y], matrix[y, x] = momentum, -momentum
-    return matrix
+        momenta["output"] = float(mass[place, place]) * float(design.speeds.members["output"])
+    for x, y in _pairs(names):
+        member, motion = names[x].split(".")
+        momentum = momenta.get(member, 0.0) if motion == "tilt_x" else 0.0
+        gyroscopic[x, y] = -(2.0 * mass[x, x] - momentum)
+        gyroscopic[y, x] = -gyroscopic[x, y]
+        centrifugal[x, x] = centrifugal[y, y] = -(mass[x, x] - momentum)
+    return gyroscopic, centrifugal
 
 
-def _variation(series: Series) -> float:
-    size = np.sqrt(np.abs(np.diag(series.stiffness[:-1].mean(axis=0))))
+def _variation(stiffness: Array) -> float:
+    mean = stiffness.mean(axis=0)
+    size = np.sqrt(np.abs(np.diag(mean)))
     scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)
-    off = (series.stiffness[:-1] - series.stiffness[:-1].mean(axis=0)) * np.outer(scale, scale)
-    return float(np.linalg.norm(off, ord=2, axis=(1, 2)).max())
+    return float(np.linalg.norm((stiffness - mean) * np.outer(scale, scale), ord=2, axis=(1, 2)).max())
 
 
 def spoken(name: str) -> str:
@@ -119,10 +155,10 @@ def near(design: Design, modes: tuple[Mode, ...]) -> list[str]:
     """Say which line is within CLOSE of which mode."""
     said = []
     for name, order in lines(design).items():
-        heard = order * design.crank_speed / (2.0 * np.pi)
+        line = order * design.crank_speed / (2.0 * np.pi)
         for i, mode in enumerate(modes, 1):
-            if abs(heard / mode.frequency - 1.0) < CLOSE:
-                said.append(f"{name} ({heard:.4g} Hz) near mode {i} ({mode.frequency:.4g} Hz)")
+            if abs(line / mode.frequency - 1.0) < CLOSE:
+                said.append(f"{name} ({line:.4g} Hz) near mode {i} ({mode.frequency:.4g} Hz)")
     return said
 
 
@@ -130,13 +166,13 @@ def campbell(design: Design, series: Series, masses: Masses) -> Plot:
     """Draw the natural frequencies over the input speed."""
     at, orders = assembled(design, series, masses), lines(design)
     speeds = np.linspace(0.0, 2.0 * design.crank_speed, SPEEDS)
-    rows = [whirl(at(float(speed))).frequency for speed in speeds]
+    rows = [[mode.frequency for mode in _modes(at, float(speed))] for speed in speeds]
     count = min(len(row) for row in rows)
     frequencies = np.array([row[:count] for row in rows]).reshape(len(rows), count)
     most = 3.0 * max(orders.values()) * speeds[-1] / (2.0 * np.pi)
     shown = frequencies[:, frequencies[0] <= most]
     caption = (
-        "Natural frequencies at the scene's torque, with the mean stiffness over a turn, up to three times the highest "
-        "line. Where a line crosses one, its load is amplified."
+        "Natural frequencies at the scene's torque, with the mean stiffness that the eccentric sees, up to three "
+        "times the highest line. Where a line crosses one, its load is amplified."
     )
     return campbell_plot(speeds, shown, orders, design.crank_speed, caption)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -50,14 +50,19 @@ def _pictures(stages: Stages, ran: tuple[str, ...]) -> dict[str, Any]:
             "dataset": dataset(stages, ran),
             "drawing": drawing(stages),
             "fields": fields(stages) if "stress" in ran else (),
-            "plots": _campbell(stages) if "modes" in ran else (),
+            "plots": tuple(_plots(stages, ran)),
         }
 
 
-def _campbell(stages: Stages) -> tuple[Plot, ...]:
-    from trochoid.drives.khv.modes import campbell
+def _plots(stages: Stages, ran: tuple[str, ...]) -> Iterator[Plot]:
+    if "modes" in ran:
+        from trochoid.drives.khv.modes import campbell
 
-    return (campbell(stages.design, stages.contact.fine, stages.masses),)
+        yield campbell(stages.design, stages.contact.fine, stages.masses)
+    if "torsional" in ran and stages.torsional is not None:
+        from trochoid.drives.khv.answers_torsional import picture
+
+        yield picture(stages, stages.torsional)
 
 
 def checks(stages: Stages) -> tuple[Check, ...]:

@@ -6,13 +6,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from trochoid.drives.disc_field import disc_field, turned, turned_stress
 from trochoid.drives.disc_pack import circle
 from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.stages import Stages
 from trochoid.drives.paths import Path, framed
 from trochoid.kinematics.motion import PlaneMotion, khv_motions
 from trochoid.kinematics.types import Array, frozen
-from trochoid.results.outcome import Arrow, Drawing, Field, FieldFrame
+from trochoid.results.outcome import Arrow, Drawing, FieldFrame
+
+__all__ = ["drawing", "fields", "ring_angle", "turned", "turned_stress"]
 
 FLANK_POINTS = 760
 SMALL, LARGE = 48, 120  # points of a circle
@@ -118,37 +121,13 @@ def fields(stages: Stages) -> tuple[FieldFrame, ...]:
     """Return the discs' displacement and stress at the asked position, at their axial places."""
     states = stages.field.fine
     turn = float(ring_angle(stages.design, np.array(states[0].angle)))
-    bodies = []
-    for i, state in enumerate(states):
-        points = np.column_stack([turned(state.points[:, :2], turn), state.points[:, 2]])
-        data = {
-            "displacement": frozen(turned(state.displacement, turn)),
-            "stress": frozen(turned_stress(state.field.stress, state.turn + turn)),
-            "von_mises": state.field.von_mises,
-            "max_shear": state.field.max_shear,
-        }
-        bodies.append(Field(_name(i), frozen(points), state.field.triangles, data))
-    return ((states[0].angle, tuple(bodies)),)
+    bodies = tuple(disc_field(_name(i), state, turn) for i, state in enumerate(states))
+    return ((states[0].angle, bodies),)
 
 
 def ring_angle(design: Design, angle: Array) -> Array:
     """Return how far the ring has turned at input angles (rad); contacts are given in its frame."""
     return float(design.speeds.members["ring"]) * angle
-
-
-def turned(vectors: Array, angle: float) -> Array:
-    """Turn plane vectors (..., 2) by an angle in rad."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.asarray(vectors @ np.array([[c, s], [-s, c]]))
-
-
-def turned_stress(stress: Array, angle: float) -> Array:
-    """Return stress (n, 4) xx, yy, zz, xy of a body turned by an angle (rad) in the axes that it is turned from."""
-    xx, yy, zz, xy = stress.T
-    c, s = np.cos(angle), np.sin(angle)
-    x = c * c * xx + s * s * yy - 2 * c * s * xy
-    y = s * s * xx + c * c * yy + 2 * c * s * xy
-    return np.column_stack([x, y, zz, c * s * (xx - yy) + (c * c - s * s) * xy])
 
 
 def _name(disc: int) -> str:

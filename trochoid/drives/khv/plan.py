@@ -30,6 +30,7 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "reactions": (*_CONTACT, "mass", "reactions"),
     "balance": ("kinematics", "geometry", "mass"),
     "natural_frequencies": (*_CONTACT, "mass", "modes"),
+    "torsional_vibration": (*_CONTACT, "mass", "torsional"),
     "vibration_velocity": (*_CONTACT, "mass", "reactions", "vibration"),
     "vibration_zone": (*_CONTACT, "mass", "reactions", "vibration"),
     "mass": ("kinematics", "geometry", "mass"),
@@ -48,6 +49,7 @@ WHY = {
     "bearing": "stiffness of the eccentric bearing under its load",
     "reactions": "bearing reactions over a turn, rigid and elastic",
     "modes": "natural frequencies, Campbell diagram",
+    "torsional": "torsional vibration by harmonic balance, and over the speed",
     "vibration": "velocity of the casing on its mounts",
 }
 
@@ -77,6 +79,7 @@ def plan(scene: KhvScene, rung: str, facets: int) -> Plan:
         "stress": 0.35 * d.discs,
         "reactions": 0.1,
         "modes": 0.05,
+        "torsional": 2.0,
         "vibration": 0.02,
     }
     memory = {"bodies": 120 + 4e-4 * stations**2, "contact": 150 + 4e-4 * stations**2}

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from trochoid.drives.khv.running import Running
     from trochoid.drives.khv.seat import SeatStiffness
     from trochoid.drives.khv.series import Series
+    from trochoid.drives.khv.torsional import Torsional
     from trochoid.drives.khv.vibration import CasingVibration
     from trochoid.fem.position import ElasticBody
     from trochoid.geometry.mesh import Mesh
@@ -257,6 +258,18 @@ class Stages:
             return Pair(solved.fine, solved.coarse).map(
                 lambda series: natural_modes(self.design, series, masses)
             )
+
+    @cached_property
+    def torsional(self) -> Torsional | None:
+        """Torsional vibration of the driven member, on the finer mesh level; None where it is free within its play."""
+        solved, masses = self.contact, self.masses
+        with self.clock.stage("torsional"):
+            from trochoid.drives.khv.torsional import pendulum, torsional
+
+            if not (solved.fine.torsional_stiffness[:-1] > 0.0).all():
+                return None
+            made = pendulum(self.design, solved.fine, masses, self.scene.operation.damping_ratio)
+            return torsional(made, self.design.crank_speed)
 
     @cached_property
     def vibration(self) -> Pair[CasingVibration]:

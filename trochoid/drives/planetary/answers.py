@@ -20,5 +20,6 @@ QUANTITIES = answers(
             "torsional_stiffness",
         ),
         "answers_forces": ("reactions", "bearing_loads", "mass"),
+        "answers_dynamics": ("natural_frequencies", "vibration_velocity", "vibration_zone"),
     },
 )

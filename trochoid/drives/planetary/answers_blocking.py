@@ -18,8 +18,8 @@ def blocking_contour(s: Stages) -> Quantity:
     """Areas of the plane contours, volume of their body, the coaxiality line with its ends, best shifts on it."""
     found, needed = s.blocking, s.feasible.sums
     parts: dict[str, Quantity | Parts] = {
-        "sun_planet": _contour(found.outer),
-        "planet_ring": _contour(found.inner),
+        "sun_and_planet": _contour(found.outer),
+        "planet_and_ring": _contour(found.inner),
         "body": Quantity(parts={"volume": _number(found.volume)}),
         "coaxial_line": _line(found.line, needed),
     }
@@ -35,8 +35,12 @@ def _contour(contour: Contour) -> Quantity:
 
 def _line(line: Line, needed: tuple[float, float]) -> Quantity:
     parts: dict[str, Quantity | Parts] = {
-        "sum_sun_planet": Quantity(line.outer, "", 0.0, "exact", note=_play("x_sun + x_planet", needed[0])),
-        "sum_planet_ring": Quantity(line.inner, "", 0.0, "exact", note=_play("x_ring - x_planet", needed[1])),
+        "sum_sun_and_planet": Quantity(
+            line.outer, "", 0.0, "exact", note=_play("x_sun + x_planet", needed[0])
+        ),
+        "sum_planet_and_ring": Quantity(
+            line.inner, "", 0.0, "exact", note=_play("x_ring − x_planet", needed[1])
+        ),
     }
     if not line.stretches:
         return Quantity(parts=parts, note="no shifts on it fulfil all conditions")

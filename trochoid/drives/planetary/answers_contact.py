@@ -46,13 +46,20 @@ def load_sharing(s: Stages) -> Quantity:
         "largest_share": over_pitch(s, lambda x: float(x.shares.max()), ""),
         "overload_of_a_planet": over_pitch(s, lambda x: count * float(x.shares.max()), ""),
         "pairs_of_teeth": {
-            "sun_planet_mean": over_pitch(s, lambda x: _touching(x.sun), ""),
-            "planet_ring_mean": over_pitch(s, lambda x: _touching(x.ring), ""),
-            "sun_planet_largest_share": over_pitch(s, lambda x: _largest_share(x.sun), ""),
-            "planet_ring_largest_share": over_pitch(s, lambda x: _largest_share(x.ring), ""),
+            "sun_and_planet_mean": over_pitch(s, lambda x: _touching(x.sun), ""),
+            "planet_and_ring_mean": over_pitch(s, lambda x: _touching(x.ring), ""),
+            "sun_and_planet_largest_share": over_pitch(s, lambda x: _largest_share(x.sun), ""),
+            "planet_and_ring_largest_share": over_pitch(s, lambda x: _largest_share(x.ring), ""),
         },
     }
-    return Quantity(parts=parts, note="overload: largest torque of a planet over an even share, K_γ")
+    note = "overload: largest torque of a planet over an even share, K_γ"
+    if s.scene.drive.lead is not None:
+        parts["face_load_factor"] = {
+            "sun_and_planet": number(s, s.faces.map(lambda f: float(f.outer.factor.max())), ""),
+            "planet_and_ring": number(s, s.faces.map(lambda f: float(f.inner.factor.max())), ""),
+        }
+        note += "; face load factor: largest over mean load of a slice of the face width, K_Hβ"
+    return Quantity(parts=parts, note=note)
 
 
 def _touching(touches: Touches) -> float:
@@ -83,8 +90,8 @@ def contact_pressure_max(s: Stages) -> Quantity:
 def _largest(s: Stages, get: Callable[[Touches], Array], scale: float, unit: str) -> Quantity:
     return Quantity(
         parts={
-            "sun_planet": over_pitch(s, lambda x: float(get(x.sun).max()) * scale, unit),
-            "planet_ring": over_pitch(s, lambda x: float(get(x.ring).max()) * scale, unit),
+            "sun_and_planet": over_pitch(s, lambda x: float(get(x.sun).max()) * scale, unit),
+            "planet_and_ring": over_pitch(s, lambda x: float(get(x.ring).max()) * scale, unit),
         }
     )
 
@@ -133,7 +140,9 @@ def _said(s: Stages) -> str:
 def mesh_stiffness(s: Stages) -> Quantity:
     """Normal force per approach along the line of action of one planet's meshes, each by itself: the tangent."""
     width = s.scene.drive.face_width
-    parts = {name: _mesh(s, get, width) for name, get in (("sun_planet", _outer), ("planet_ring", _inner))}
+    parts = {
+        name: _mesh(s, get, width) for name, get in (("sun_and_planet", _outer), ("planet_and_ring", _inner))
+    }
     note = "under an even share of the torque, centres held"
     if s.scene.drive.ring.held == "evenly":
         note += "; the ring's rim bends under this one mesh alone, more than under all of them"

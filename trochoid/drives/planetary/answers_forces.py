@@ -11,7 +11,18 @@ from trochoid.results.outcome import Parts, Quantity
 
 
 def reactions(s: Stages) -> Quantity:
-    """Torques that act on the members from outside, power, forces in the meshes of one planet."""
+    """Torques that act on the members from outside, power, forces in the meshes of one planet: of rigid members, and of
+    elastic ones with mass.
+    """
+    answer = _rigid(s)
+    if not s.moves:
+        return answer
+    from trochoid.drives.planetary.answers_dynamics import elastic_reactions
+
+    return elastic_reactions(s, answer)
+
+
+def _rigid(s: Stages) -> Quantity:
     found = s.rigid
     parts: dict[str, Quantity | Parts] = {
         name: Quantity(
@@ -23,7 +34,7 @@ def reactions(s: Stages) -> Quantity:
         )
         for name, torque in found.torques.items()
     }
-    parts |= {"sun_planet": _mesh(found.outer), "planet_ring": _mesh(found.inner)}
+    parts |= {"sun_and_planet": _mesh(found.outer), "planet_and_ring": _mesh(found.inner)}
     note = "rigid members, all planets alike; torques act from outside, positive as the input turns"
     return Quantity(parts=parts, note=note)
 

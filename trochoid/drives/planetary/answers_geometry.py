@@ -67,8 +67,8 @@ def _meshes(s: Stages) -> dict[str, Quantity]:
     full = set_.planet_tip_for_ring
     found = {}
     for name, pair, tips in (
-        ("sun_planet", set_.outer, (sun, planet)),
-        ("planet_ring", set_.inner, (planet, ring)),
+        ("sun_and_planet", set_.outer, (sun, planet)),
+        ("planet_and_ring", set_.inner, (planet, ring)),
     ):
         slide = pair.sliding(*tips)
         values = {
@@ -79,7 +79,7 @@ def _meshes(s: Stages) -> dict[str, Quantity]:
             "path_of_contact": (1e3 * pitch * float(pair.contact_ratio(*tips)), "mm"),
             "contact_ratio": (float(pair.contact_ratio(*tips)), ""),
             "specific_sliding_" + name.split("_")[0]: (float(slide[0]), ""),
-            "specific_sliding_" + name.split("_")[1]: (float(slide[1]), ""),
+            "specific_sliding_" + name.split("_")[-1]: (float(slide[1]), ""),
             "backlash": (1e6 * float(pair.backlash), "um"),
         }
         if pair is set_.outer:
@@ -122,12 +122,12 @@ def contact_ratio(s: Stages) -> Quantity:
     made, set_ = s.feasible.given, s.feasible.geometry
     sun, planet, ring = set_.tips
     meshes: dict[str, Any] = {
-        "sun_planet": set_.outer.contact_ratio(sun, planet),
-        "planet_ring": set_.inner.contact_ratio(planet, ring),
+        "sun_and_planet": set_.outer.contact_ratio(sun, planet),
+        "planet_and_ring": set_.inner.contact_ratio(planet, ring),
     }
     step = (
         made.teeth[2] % made.planets / made.planets
-    )  # that of the sun's mesh is -z1/N, the same when planets fit
+    )  # that of the sun's mesh is −z1/N, the same when planets fit
     note = "phase step: share of a pitch by which the next planet's mesh is ahead on its path; 0: all are in step"
     return Quantity(parts={name: _pairs(float(ratio), step) for name, ratio in meshes.items()}, note=note)
 
@@ -136,7 +136,7 @@ def _pairs(ratio: float, step: float) -> Quantity:
     fewest = math.floor(ratio)
     return exact(
         {
-            "contact_ratio": (ratio, ""),
+            "transverse": (ratio, ""),
             "fewest_pairs": (float(fewest), ""),
             "share_of_time_with_fewest": (fewest + 1.0 - ratio, ""),
             "phase_step": (step, ""),

@@ -99,6 +99,16 @@ def hands(load: Load) -> tuple[int, int]:
 def assembly(design: Design, turning: Speeds, level: Level, load: Load, angle: Array) -> Assembly:
     """Return the contact problem at input angles (n,) in rad."""
     motions, places = layout(design), centers(design)
+    held, weights = springs(design, motions, places), loads(motions, places, load, len(angle))
+    return held_by(design, turning, level, load, angle, (motions, held, weights))
+
+
+def held_by(
+    design: Design, turning: Speeds, level: Level, load: Load, angle: Array, rest: tuple[Layout, Array, Array]
+) -> Assembly:
+    """Return the contact problem with motions, springs (k, k) and loads (n, k) of one's own."""
+    motions, held, weights = rest
+    places = centers(design)
     sun, planet, ring = level.wheels
     own, outer = hands(load)
     width = _widths(design, level, load)
@@ -113,9 +123,7 @@ def assembly(design: Design, turning: Speeds, level: Level, load: Load, angle: A
         pair = mesh_pair((planet, ring), (member, ring_member), (1 + i, 1 + len(places)), outer, width[1])
         families.append(mesh_family(f"ring{i}", pair, (planet, ring)))
     bodies = (sun.elastic, *[planet.elastic] * len(places), ring.elastic)
-    return Assembly(
-        tuple(families), bodies, springs(design, motions, places), loads(motions, places, load, len(angle))
-    )
+    return Assembly(tuple(families), bodies, held, weights)
 
 
 def _nominal(design: Design, level: Level, hand: tuple[int, int], sun: Member) -> list[Array]:

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from trochoid.drives.entries import ANGLE, Entries, entry, named, numbered
+from trochoid.drives.planetary.blocking_entries import blocking_entries
 from trochoid.drives.planetary.mesh_phase import MESHES, period, places
+from trochoid.drives.planetary.moving_entries import moving_entries
 from trochoid.drives.planetary.stages import Stages
 from trochoid.kinematics.types import Array
 
@@ -48,7 +50,18 @@ def dataset(stages: Stages, ran: Collection[str]) -> xarray.Dataset:
             "",
             "share of a base pitch",
         )
+    if "blocking" in ran:
+        entries = {**entries, **blocking_entries(stages)}
+    made, more = moving_entries(stages, ran)
+    entries, coordinates = {**made, **entries}, coordinates | more
     return xarray.Dataset(entries, coordinates)
+
+
+def blocking_dataset(stages: Stages) -> xarray.Dataset:
+    """Return the boundaries of the blocking contours alone."""
+    import xarray
+
+    return xarray.Dataset(blocking_entries(stages))
 
 
 def _period(stages: Stages) -> float:

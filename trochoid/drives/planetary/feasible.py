@@ -30,7 +30,20 @@ def _around_teeth(design: Design) -> tuple[str, ...]:
             blanks(design, curves)
     except Infeasible as error:
         found += (str(error),)
-    return found
+    return found + _measured(design)
+
+
+def _measured(design: Design) -> tuple[str, ...]:
+    """Spans and sizes over rollers are asked for with the profile, and not every roller rests on the flanks."""
+    if "profile" not in design.scene.ask.quantities:
+        return ()
+    from trochoid.geometry.planetary_table import table
+
+    try:
+        table(design.geometry, design.roller)
+    except Infeasible as error:
+        return (f"sizes to measure (roller_diameter = {_mm(design.roller)}): {error}",)
+    return ()
 
 
 def _root_rounding(design: Design) -> tuple[str, ...]:

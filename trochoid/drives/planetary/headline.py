@@ -18,7 +18,11 @@ ABSENT_EFFECTS = {
     ),
     "position_errors": "All planets stand in their ideal places, and share the torque evenly.",
     "clearance": "Flanks have no tip relief: tip edges meet the other flanks early and late, under high pressure.",
-    "inertia": "No member has mass in the equations: planets do not press outward on their bearings.",
+    "inertia": (
+        "No member has mass in the equations: planets do not press outward on their bearings, and forces are those of "
+        "a set that creeps."
+    ),
+    "casing_on_mounts": "The casing stands still: there is no vibration velocity and no zone to judge it by.",
 }
 
 NEVER_SIMULATED = {
@@ -74,4 +78,10 @@ def not_simulated(scene: PlanetaryScene) -> dict[str, str]:
         for name, said in ABSENT_EFFECTS.items()
         if not scene.has(name) and (elastic or name in ("elastic_contact", "inertia"))
     }
-    return unlisted | NEVER_SIMULATED
+    never = dict(NEVER_SIMULATED)
+    if scene.drive.lead is not None:
+        never["load over the face width"] = (
+            "Only the face load factor knows of it: all other answers take teeth that carry evenly. Slices are coupled "
+            "by the rotation of the wheels alone: too much falls on the end that touches first."
+        )
+    return unlisted | never

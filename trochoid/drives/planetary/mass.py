@@ -32,6 +32,27 @@ def masses(design: Design, curves: Members) -> Masses:
     return Masses(*(prism(figure, d.face_width, density) for figure in figures))
 
 
+def carrier(design: Design) -> tuple[float, float]:
+    """Return mass (kg) and moment of inertia (kg·m²) of the carrier, as given, or of a plain one.
+
+    A plain one has two round cheeks, each a quarter of the face width thick, that end where the bores of the planets
+    do, and pins that fill these bores between them.
+    """
+    given, d = design.drive.carrier, design.drive
+    density = design.scene.materials[d.material].density
+    bore, reach = design.bores[1], d.center_distance + design.bores[1]
+    cheeks, pin = (
+        prism(_round(reach), 0.5 * d.face_width, density),
+        prism(_round(bore), d.face_width, density),
+    )
+    mass = cheeks.mass + d.planets * pin.mass
+    inertia = cheeks.axial_inertia + d.planets * (pin.axial_inertia + pin.mass * d.center_distance**2)
+    if given.mass is not None:
+        inertia *= given.mass / mass  # of the same shape
+        mass = given.mass
+    return mass, given.inertia or inertia
+
+
 def _round(radius: float) -> Section:
     area = math.pi * radius**2
     return Section(area, (0.0, 0.0), 0.5 * area * radius**2)

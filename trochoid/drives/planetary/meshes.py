@@ -20,11 +20,16 @@ class Meshes:
 
 def meshes(design: Design, level: Level, load: Load, positions: int) -> Meshes:
     """Solve both meshes at positions over a base pitch, centres held. Raises NotConverged."""
+    return Meshes(*(solve_path(m, base_pitch(m, positions)) for m in matings(design, level, load)))
+
+
+def matings(design: Design, level: Level, load: Load) -> tuple[Mating, Mating]:
+    """Return both meshes of a planet under an even share of the torque."""
     d, hand = design.drive, hands(load)
-    found = []
-    for outer, own in ((True, hand[0]), (False, hand[1])):
+
+    def mating(outer: bool, own: int) -> Mating:
         wheels = wheel_pair(level, outer)
         force = abs(load.sun) / (d.planets * level.wheels[0].flank.base_radius)
-        mating = Mating(wheels, d.center_distance, force * wheels[1].flank.base_radius, own)
-        found.append(solve_path(mating, base_pitch(mating, positions)))
-    return Meshes(*found)
+        return Mating(wheels, d.center_distance, force * wheels[1].flank.base_radius, own)
+
+    return mating(True, hand[0]), mating(False, hand[1])

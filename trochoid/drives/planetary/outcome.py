@@ -12,6 +12,7 @@ from trochoid.results.outcome import Check, Outcome, Quantity, Stage
 
 BALANCE = 1e-9
 NOTICED = 1e-8  # m of play that is worth a word
+NEAR_RESONANCE = 5.0  # times the answer to a force that rests
 
 
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
@@ -42,9 +43,10 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
             )
     elif "blocking" in ran:
         with stages.clock.stage("figures"):
+            from trochoid.drives.planetary.dataset import blocking_dataset
             from trochoid.drives.planetary.plots import plots
 
-            words = replace(words, plots=plots(stages, ran))
+            words = replace(words, dataset=blocking_dataset(stages), plots=plots(stages, ran))
     seconds = stages.clock.seconds
     return replace(words, stages=tuple(Stage(name, seconds[name]) for name in seconds))
 
@@ -73,6 +75,11 @@ def contact_checks(stages: Stages) -> tuple[Check, ...]:
     }
     if series.layout.floating:
         found["bearings hold what the teeth press"] = balance.seat_residual(stages.feasible, series)
+    if "reactions" in stages.clock.seconds:
+        moved = stages.reactions.fine
+        found["teeth of the moving set press each other alike"] = moved.balance
+        found["forces of the moving set are its inertia"] = moved.seats
+        found["work of the moving set is what damping takes"] = moved.work
     return tuple(Check(name, value, BALANCE, value <= BALANCE) for name, value in found.items())
 
 
@@ -98,11 +105,33 @@ def warnings(stages: Stages) -> Iterator[str]:
     if not radial.fulfilled:
         yield "planets cannot be pushed into the ring radially, only along the axis"
     yield from _unheeded(stages)
+    yield from _moving(stages)
     if "contact" in stages.clock.seconds and stages.contact.doubt:
         yield (
             "the pressure of some contacts could not be resolved, and level0 was taken, whose error is not known here: "
             + stages.contact.doubt
         )
+
+
+def _moving(stages: Stages) -> Iterator[str]:
+    """Yield what the reactions of the moving set do not cover."""
+    ran = stages.clock.seconds
+    if "reactions" in ran:
+        found = stages.reactions.fine
+        if found.separation:
+            yield (
+                "flanks would part in the moving set: the force of a mesh falls below nothing, and its equations keep "
+                "them together; more torque, more damping or another speed would hold them"
+            )
+        if found.resonance is not None and found.resonance.factor > NEAR_RESONANCE:
+            peak = found.resonance
+            yield (
+                f"near resonance: harmonic {peak.harmonic} of the mesh frequency ({peak.frequency:.4g} Hz) meets the "
+                f"mode at {peak.natural_frequency:.4g} Hz, which answers {peak.factor:.3g} times as much as to a force "
+                "that rests; the result rests on the damping ratio"
+            )
+    if "vibration" in ran:
+        yield from stages.vibration.fine.elastic.warnings
 
 
 def _unheeded(stages: Stages) -> Iterator[str]:

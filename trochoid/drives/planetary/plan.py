@@ -11,6 +11,7 @@ _FORCES = ("kinematics", "geometry", "forces")
 _MASS = ("geometry", "profiles", "mass")
 
 _CONTACT = ("kinematics", "geometry", "profiles", "forces", "bodies", "contact")
+_DYNAMICS = (*_CONTACT, "mass", "dynamics")
 
 STAGES_OF: dict[str, tuple[str, ...]] = {
     "ratio": ("kinematics",),
@@ -28,6 +29,9 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "torsional_stiffness": _CONTACT,
     "reactions": _FORCES,
     "bearing_loads": _FORCES,
+    "natural_frequencies": (*_DYNAMICS, "modes"),
+    "vibration_velocity": (*_DYNAMICS, "reactions", "vibration"),
+    "vibration_zone": (*_DYNAMICS, "reactions", "vibration"),
     "mass": _MASS,
 }
 
@@ -42,9 +46,15 @@ WHY = {
     "contact": "all pairs of teeth of all planets together over a pitch, on both levels",
     "meshes": "stiffness of each mesh by itself",
     "stress": "tension in the fillets of the loaded teeth",
+    "face": "load over the face width of both meshes, in slices",
+    "dynamics": "stiffness of all meshes on all members, on both levels",
+    "reactions": "forces of the moving set over a pitch",
+    "modes": "natural frequencies, Campbell diagram",
+    "vibration": "velocity of the casing on its mounts",
 }
 
-ELASTIC = ("bodies", "contact", "meshes", "stress")
+MOVING = ("dynamics", "reactions", "modes", "vibration")
+ELASTIC = ("bodies", "contact", "meshes", "stress", "face", *MOVING)
 POSITION = {"level0": 4e-3, "strips": 7e-3}  # seconds for one planet
 
 
@@ -56,6 +66,10 @@ def plan(scene: PlanetaryScene) -> Plan:
     elastic = scene.has("elastic_contact")
     if elastic:
         stages["bearing_loads"] = (*_CONTACT, *heavy)
+        if d.lead is not None:
+            stages["load_sharing"] = (*_CONTACT, *heavy, "face")
+        if scene.has("inertia"):
+            stages["reactions"] = (*_DYNAMICS, "reactions")
     why = WHY if elastic else {name: said for name, said in WHY.items() if name not in ELASTIC}
     model = scene.accuracy.model or "strips"
     seconds = {
@@ -65,6 +79,11 @@ def plan(scene: PlanetaryScene) -> Plan:
         "contact": 2 * positions * d.planets * POSITION[model],
         "meshes": 4 * positions * 1e-3,
         "stress": 0.5 + 3e-3 * positions * d.planets,
+        "face": 0.5,
+        "dynamics": 2 * positions * d.planets * POSITION[model],
+        "reactions": 0.1,
+        "modes": 0.05,
+        "vibration": 0.05,
     }
     named = scene.accuracy.model or "level0, or strips where that is not within the tolerance"
     return planned(

@@ -18,7 +18,11 @@ AXES = (Axis("shift of the sun x₁"), Axis("shift of the planets x₂"), Axis("
 
 def plots(stages: Stages, ran: Collection[str]) -> tuple[Plot, ...]:
     """Return what the stages "contact" and "blocking" have pictures of, if they `ran`."""
-    found = (_along_the_path(stages),) if "contact" in ran else ()
+    found: tuple[Plot, ...] = (_along_the_path(stages),) if "contact" in ran else ()
+    if "modes" in ran:
+        from trochoid.drives.planetary.modes import campbell
+
+        found = (*found, campbell(stages.moving.fine, stages.scene.operation.input_speed))
     return (*found, *contours(stages)) if "blocking" in ran else found
 
 

@@ -18,11 +18,16 @@ if TYPE_CHECKING:
     from trochoid.drives.planetary.blocking import Blocking
     from trochoid.drives.planetary.bodies import Level
     from trochoid.drives.planetary.contact import Load
+    from trochoid.drives.planetary.face import Faces
     from trochoid.drives.planetary.mass import Masses
     from trochoid.drives.planetary.meshes import Meshes
+    from trochoid.drives.planetary.modes import SetModes
+    from trochoid.drives.planetary.moving import Moving
+    from trochoid.drives.planetary.reactions import Reactions
     from trochoid.drives.planetary.rigid import Rigid
     from trochoid.drives.planetary.roots import Roots
     from trochoid.drives.planetary.series import Series
+    from trochoid.drives.planetary.vibration import CasingVibration
     from trochoid.geometry.planetary_curves import Members
 
 LEAST = 10
@@ -232,3 +237,67 @@ class Stages:
             return Pair(
                 made(solved.level), None if solved.coarse_level is None else made(solved.coarse_level)
             )
+
+    @cached_property
+    def faces(self) -> Pair[Faces]:
+        """Load over the face width of both meshes of one planet."""
+        solved, load = self.contact, self.load
+        with self.clock.stage("face"):
+            from trochoid.drives.planetary.face import faces
+
+            def made(level: Level) -> Faces:
+                return faces(self.feasible, level, load, self.scene.ask.positions)
+
+            return Pair(
+                made(solved.level), None if solved.coarse_level is None else made(solved.coarse_level)
+            )
+
+    @cached_property
+    def moving(self) -> Pair[Moving]:
+        """The set as a system with mass, and the stiffness of its meshes at every position."""
+        solved, masses = self.contact, self.masses
+        with self.clock.stage("dynamics"):
+            from trochoid.drives.planetary.moving import moving
+
+            def made(series: Series, level: Level) -> Moving:
+                return moving(self.feasible, self.speeds, masses, series, level)
+
+            fine = made(solved.fine, solved.level)
+            if solved.coarse is None or solved.coarse_level is None:
+                return Pair(fine, None)
+            return Pair(fine, made(solved.coarse, solved.coarse_level))
+
+    @cached_property
+    def reactions(self) -> Pair[Reactions]:
+        """Forces of the moving set over a pitch."""
+        set_, solved, damping = self.moving, self.contact, self.scene.operation.damping_ratio
+        with self.clock.stage("reactions"):
+            from trochoid.drives.planetary.reactions import reactions
+
+            fine = reactions(set_.fine, solved.fine, damping)
+            if set_.coarse is None or solved.coarse is None:
+                return Pair(fine, None)
+            return Pair(fine, reactions(set_.coarse, solved.coarse, damping))
+
+    @cached_property
+    def modes(self) -> Pair[SetModes]:
+        """Natural frequencies on the mean stiffness over a pitch."""
+        set_ = self.moving
+        with self.clock.stage("modes"):
+            from trochoid.drives.planetary.modes import natural_modes
+
+            return set_.map(natural_modes)
+
+    @cached_property
+    def vibration(self) -> Pair[CasingVibration]:
+        """Vibration velocity of the casing."""
+        found = self.reactions
+        with self.clock.stage("vibration"):
+            from trochoid.drives.planetary.vibration import casing_vibration
+
+            return found.map(lambda reactions: casing_vibration(self.feasible, self.speeds, reactions))
+
+    @property
+    def moves(self) -> bool:
+        """Whether the reactions are those of elastic wheels with mass."""
+        return self.scene.has("elastic_contact") and self.scene.has("inertia")

@@ -8,6 +8,7 @@ from trochoid.drives.precessional.answers import QUANTITIES
 from trochoid.drives.precessional.outcome import outcome
 from trochoid.drives.precessional.plan import plan
 from trochoid.drives.precessional.stages import Stages
+from trochoid.ladder import Ladder
 from trochoid.plan import Plan
 from trochoid.scene.drive_precessional import PrecessionalScene
 
@@ -19,4 +20,10 @@ def _plan(scene: PrecessionalScene) -> Plan:
     return made
 
 
-DRIVE = Drive(Stages, QUANTITIES, outcome, _plan)
+def _ladder(scene: PrecessionalScene, clock: Clock) -> Ladder:
+    from trochoid.drives.precessional.ladder import ladder
+
+    return ladder(scene, clock)
+
+
+DRIVE = Drive(Stages, QUANTITIES, outcome, _plan, _ladder)

@@ -98,7 +98,7 @@ def contact_ratio(s: Stages) -> Quantity:
     return Quantity(
         parts={
             "geometric": Quantity(tooth.pins * pushing, "", 0.0, "exact"),
-            "pressure_angle_min": Quantity(math.degrees(angle.min()), "deg", 0.0, "exact"),
+            "pressure_angle_min": Quantity(_settled(math.degrees(angle.min())), "deg", 0.0, "exact"),
             "pressure_angle_mean": Quantity(
                 math.degrees(angle @ weight / weight.sum()),
                 "deg",
@@ -109,6 +109,11 @@ def contact_ratio(s: Stages) -> Quantity:
         },
         note="pins with a lever for the one sense of the torque; under load, elasticity decides",
     )
+
+
+def _settled(angle: float) -> float:
+    """Return the angle (°), 0 where it is rounding."""
+    return angle if abs(angle) > 1e-12 else 0.0
 
 
 def pressure_angles(tooth: SphereTooth) -> tuple[float, np.ndarray, np.ndarray]:

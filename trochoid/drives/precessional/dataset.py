@@ -39,6 +39,10 @@ def dataset(stages: Stages, ran: Collection[str], profile: bool) -> xarray.Datas
     """Return what the stages "reactions" and "vibration" hold where they `ran`, and the `profile`; None without any."""
     tooth = stages.design.tooth
     entries: Entries = {}
+    if "contact" in ran and stages.contact is not None:
+        from trochoid.drives.precessional.dataset_contact import contact_entries
+
+        entries |= contact_entries(stages.design, stages.contact.fine)
     if "reactions" in ran:
         entries |= _reactions(stages) | _couples(stages)
     if "vibration" in ran:
@@ -50,9 +54,12 @@ def dataset(stages: Stages, ran: Collection[str], profile: bool) -> xarray.Datas
     import xarray
 
     used = {dim for dims, *_ in entries.values() for dim in dims}
-    return xarray.Dataset(
-        entries, {name: place for name, place in _places(stages, used).items() if name in used}
-    )
+    places = _places(stages, used)
+    if "contact" in ran and stages.contact is not None:
+        from trochoid.drives.precessional.dataset_contact import contact_places
+
+        places |= contact_places(stages.design, stages.contact.fine)
+    return xarray.Dataset(entries, {name: place for name, place in places.items() if name in used})
 
 
 def _entry(

@@ -10,6 +10,11 @@ from trochoid.results.outcome import Quantity
 from trochoid.scene.drive_precessional import PrecessionalScene
 
 ABSENT_EFFECTS = {
+    "elastic_contact": (
+        "The teeth are rigid: no load sharing, no contact pressure, no stiffness, and the output torque loads nothing."
+    ),
+    "pin_compliance": "Rollers are rigid, and so are their pins.",
+    "clearance": "Rollers are straight and as thick as the flanks are cut for: no crown, no lost motion of the teeth.",
     "inertia": "No member has mass in the equations: there are no reactions and there is no vibration.",
     "bearing_compliance": (
         "All members and joints are rigid: no elastic motion feeds back into the reactions, and the only natural modes "
@@ -19,21 +24,18 @@ ABSENT_EFFECTS = {
 }
 
 NEVER_SIMULATED = {
-    "load": (
-        "Reactions are those of inertia alone: the output torque loads teeth and bearings besides, steadily in the "
-        "frame of the input shaft, and is not in these numbers."
-    ),
-    "elastic contact of the teeth": (
-        "The teeth are rigid: no load sharing, no contact pressure, no stiffness. Their inertia load acts as one "
-        "force at the middle of the teeth on the instantaneous axis."
+    "torque and inertia together": (
+        "Reactions and vibration are those of inertia alone, whose tooth load acts as one force at the middle of the "
+        "teeth on the instantaneous axis. Contacts and bearing loads are those of the output torque alone."
     ),
     "friction": "Teeth, joints and bearings have no friction: no losses and no efficiency.",
-    "clearance": "Teeth and bearings fit without play: no lost motion, no shocks on reversal.",
+    "shocks": "Nothing strikes on reversal, and the bearings' play is in their stiffness alone.",
     "elasticity of shafts, teeth and casing": (
-        "Members are rigid bodies, and the teeth do not yield: only the joints A, B, O, C and the mounts have springs."
+        "Shafts, pins, the member with the pins, the hub and the casing are rigid: of members only the toothed rim and "
+        "the rollers yield, in the contacts alone; reactions and modes know springs in A, B, O, C and the mounts."
     ),
     "uneven output": "The joint at O is a constant-velocity one that gives way along z: it holds the satellite "
-    "without a moment across its axis.",
+    "without a moment across its axis, but for half of the tilting moment that the output torque has there.",
     "manufacturing errors": "Pins and lobes are alike and in place.",
 }
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trochoid.drives.modes import Mode, campbell_plot, shares
+from trochoid.drives.modes import Mode, campbell_plot, heard, shares
 from trochoid.drives.precessional.design import Design
 from trochoid.drives.precessional.mechanism import PrecessionalDrive
 from trochoid.drives.precessional.members import Bodies, bodies
@@ -22,7 +22,7 @@ from trochoid.dynamics.constraint import free_motions
 from trochoid.dynamics.system import System
 from trochoid.dynamics.whirl import Whirl, whirl
 from trochoid.kinematics.errors import TrochoidError
-from trochoid.kinematics.types import Array, ComplexArray, frozen
+from trochoid.kinematics.types import Array, frozen
 from trochoid.results.plot import Plot
 
 MOTIONS = ("across z", "across z", "along z", "tilting", "tilting", "turning about z")
@@ -76,10 +76,10 @@ def natural_modes(design: Design, drive: PrecessionalDrive, held: Yielding | Non
     made = bodies(drive, speed, design.shaft_shape, held.joints, output_mass(design), casing)
     reduced = reduce(made, speed)
     found = whirl(reduced.system(speed))
-    heard = [_mode(reduced, found, i, speed) for i in range(found.frequency.size)]
+    modes = [_mode(reduced, found, i, speed) for i in range(found.frequency.size)]
     order = 2.0 * drive.tooth_ratio
     return NaturalModes(
-        tuple(sorted(heard, key=lambda mode: mode.frequency)),
+        tuple(sorted(modes, key=lambda mode: mode.frequency)),
         _apart(critical_speeds(reduced, 0.0))[:CRITICAL],
         _apart(critical_speeds(reduced, order))[:CRITICAL],
         _campbell(reduced, speed, drive.tooth_ratio),
@@ -135,25 +135,11 @@ def _mode(reduced: Reduced, found: Whirl, i: int, speed: float) -> Mode:
     members = reduced.made.members
     names = [f"{member.name} {how}" for member in members for how in MOTIONS]
     energy = np.maximum(np.real(np.conj(motion) * (reduced.made.matrices.mass @ motion)), 0.0)
-    frequency, turns = _heard(motion, np.diag(reduced.made.matrices.mass), float(found.frequency[i]), speed)
+    triples, weight = motion.reshape(-1, 3), np.diag(reduced.made.matrices.mass).reshape(-1, 3)
+    frequency, turns = heard(
+        triples[:, :2], weight[:, 0], triples[:, 2], weight[:, 2], float(found.frequency[i]), speed
+    )
     return Mode(frequency, shares(energy, names), turns)
-
-
-def _heard(motion: ComplexArray, mass: Array, own: float, speed: float) -> tuple[float, str]:
-    """Return the frequency (Hz) at which the fixed frame hears most of a motion (n,), and its sense.
-
-    x + iy of the shaft's frame turns once more with the shaft: half of it moves up, half of it down.
-    """
-    shaft = speed / (2.0 * np.pi)
-    triples, weight = motion.reshape(-1, 3), mass.reshape(-1, 3)
-    up = float((weight[:, 0] * np.abs(triples[:, 0] + 1j * triples[:, 1]) ** 2).sum()) / 2.0
-    down = float((weight[:, 0] * np.abs(triples[:, 0] - 1j * triples[:, 1]) ** 2).sum()) / 2.0
-    still = float((weight[:, 2] * np.abs(triples[:, 2]) ** 2).sum())
-    if still >= max(up, down):
-        return own, ""
-    if up >= down:
-        return shaft + own, "forward"
-    return abs(shaft - own), "forward" if shaft > own else "backward"
 
 
 def _campbell(reduced: Reduced, operating: float, tooth_ratio: float) -> Plot:

@@ -2,35 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
 from trochoid.drives.precessional import headline
-from trochoid.drives.precessional.plan import WHY
+from trochoid.drives.precessional.plan import ELASTIC, WHY
 from trochoid.drives.precessional.stages import Stages
 from trochoid.results.outcome import Check, Outcome, Quantity, Stage
 
 BALANCE = 1e-9
 ENERGY = 1e-6
 PENETRATION = 1e-12  # rad
+SOLVED = 1e-8  # of the largest approach
 
 
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but the figures' own."""
-    ran = tuple(stages.clock.seconds)
+    ran, elastic = tuple(stages.clock.seconds), stages.scene.has("elastic_contact")
     words = Outcome(
         scene=stages.scene.model_dump(mode="json"),
         quantities=quantities,
-        not_needed=tuple(name for name in WHY if name not in ran),
+        not_needed=tuple(name for name in WHY if name not in ran and (elastic or name not in ELASTIC)),
         checks=checks(stages, ran),
+        warnings=tuple(warnings(stages)),
         title=headline.title(stages),
         facts=headline.facts(stages),
         not_simulated=headline.not_simulated(stages.scene),
     )
     if "reactions" in ran:
         words = replace(words, notes=headline.notes(stages))
-    if {"penetration", "reactions", "vibration", "modes"} & set(ran) or "profile" in quantities:
+    if {"penetration", "contact", "reactions", "vibration", "modes"} & set(ran) or "profile" in quantities:
         words = replace(words, **_pictures(stages, ran, "profile" in quantities))
     seconds = stages.clock.seconds
     return replace(words, stages=tuple(Stage(name, seconds[name]) for name in seconds))
@@ -42,10 +44,15 @@ def _pictures(stages: Stages, ran: tuple[str, ...], profile: bool) -> dict[str, 
         from trochoid.drives.precessional.dataset import dataset
         from trochoid.drives.precessional.picture import space, undercut_map
 
+        drawn = space(stages.design)
+        if "contact" in ran and stages.contact is not None:
+            from trochoid.drives.precessional.picture_contact import with_forces
+
+            drawn = with_forces(drawn, stages.design, stages.contact.fine)
         tooth = stages.design.tooth
         maps = () if tooth is None or "penetration" not in ran else (undercut_map(tooth),)
         campbell = (stages.modes.campbell,) if "modes" in ran else ()
-        return {"dataset": dataset(stages, ran, profile), "plots": (space(stages.design), *maps, *campbell)}
+        return {"dataset": dataset(stages, ran, profile), "plots": (drawn, *maps, *campbell)}
 
 
 def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
@@ -60,6 +67,21 @@ def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
 
         off = residual(stages.mechanism, stages.design.speed, stages.reactions["rigid"])
         found.append(_check("rigid reactions on the casing sum to the members' inertia", off, BALANCE))
+    if "contact" in ran and stages.contact is not None:
+        from trochoid.drives.precessional.tooth_loads import power_residual, spin_residual, tooth_loads
+
+        series = stages.contact.fine
+        loads = tooth_loads(stages.design, series)
+        power = power_residual(stages.design, series, loads)
+        found += [
+            _check(
+                "teeth and rollers neither overlap nor part where pressed",
+                float(series.residual.max()),
+                SOLVED,
+            ),
+            _check("teeth turn the satellite as the output holds it", spin_residual(series), BALANCE),
+            _check("power goes out or into pressed teeth", power, BALANCE),
+        ]
     if "reactions" in ran and stages.elastic is not None:
         from trochoid.drives.precessional.turn import elastic_residual
 
@@ -69,6 +91,27 @@ def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
         unmet = abs(moved.power - moved.loss) / moved.loss if moved.loss > 0.0 else 0.0
         found.append(_check("work on the elastic motion is what damping takes", unmet, ENERGY))
     return tuple(found)
+
+
+def warnings(stages: Stages) -> Iterator[str]:
+    """Yield what the scene gives and no listed effect heeds, and pressures that no edge can have."""
+    scene = stages.scene
+    rollers = scene.drive.rollers
+    if not scene.has("elastic_contact"):
+        given = [name for name in ("rollers", "rim") if getattr(scene.drive, name).model_fields_set]
+        given += ["accuracy"] if scene.accuracy != type(scene.accuracy)() else []
+        if given:
+            yield f'the tables {", ".join(given)} do nothing without the effect "elastic_contact"'
+        return
+    ignored = [name for name in ("crown", "clearance") if getattr(rollers, name) > 0.0]
+    if ignored and not scene.has("clearance"):
+        yield f'{" and ".join(ignored)} of the rollers do nothing without the effect "clearance"'
+    if rollers.bore_angle is not None and not scene.has("pin_compliance"):
+        yield 'the bore of the rollers does nothing without the effect "pin_compliance": they are rigid'
+    if "contact" in stages.clock.seconds and stages.contact is not None and stages.contact.fine.edge.any():
+        from trochoid.drives.precessional.answers_contact import EDGE
+
+        yield EDGE
 
 
 def _check(name: str, value: float, limit: float) -> Check:

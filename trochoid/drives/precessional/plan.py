@@ -9,6 +9,7 @@ from trochoid.plan import Plan
 from trochoid.scene.drive_precessional import PrecessionalScene
 
 _BUILT = ("kinematics", "geometry")
+_CONTACT = (*_BUILT, "mass", "elastic", "bodies", "contact")
 
 STAGES_OF: dict[str, tuple[str, ...]] = {
     "ratio": ("kinematics",),
@@ -16,6 +17,14 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "profile": _BUILT,
     "geometry_quality": (*_BUILT, "penetration"),
     "contact_ratio": _BUILT,
+    "load_sharing": _CONTACT,
+    "contact_force_max": _CONTACT,
+    "contact_pressure_max": _CONTACT,
+    "transmission_error": _CONTACT,
+    "mesh_stiffness": _CONTACT,
+    "torsional_stiffness": _CONTACT,
+    "lost_motion": (*_CONTACT, "lost motion"),
+    "bearing_loads": _CONTACT,
     "reactions": (*_BUILT, "mass", "elastic", "reactions"),
     "balance": (*_BUILT, "mass"),
     "natural_frequencies": (*_BUILT, "mass", "elastic", "modes"),
@@ -30,10 +39,16 @@ WHY = {
     "penetration": "no pin cuts into a flank at any crank angle, by brute force",
     "mass": "masses and places, static balance",
     "elastic": "bearings under their loads, steady motion of the members on them",
+    "bodies": "toothed rim and rollers meshed and pressed, on two levels for the error",
+    "contact": "all rollers and teeth together over a pitch, on both levels",
+    "lost motion": "the output turned both ways under a small torque",
     "reactions": "reactions over a turn, rigid and as printed, elastic where joints yield",
     "modes": "natural frequencies, critical speeds, Campbell diagram",
     "vibration": "velocity of the casing on its mounts",
 }
+
+
+ELASTIC = ("bodies", "contact", "lost motion")
 
 
 def plan(scene: PrecessionalScene) -> Plan:
@@ -47,7 +62,16 @@ def plan(scene: PrecessionalScene) -> Plan:
         "elastic": 0.1,
         "modes": 0.2,
     }
-    if scene.has("bearing_compliance"):
-        return planned(scene, WHY, STAGES_OF, seconds)
-    needed = {name: tuple(s for s in stages if s != "elastic") for name, stages in STAGES_OF.items()}
-    return planned(scene, WHY, needed, seconds)
+    rigid = () if scene.has("bearing_compliance") else ("elastic",)
+    unheld = {name: ("mass",) if rigid and "contact" in stages else () for name, stages in STAGES_OF.items()}
+    needed = {
+        name: tuple(s for s in stages if s not in rigid and s not in unheld[name])
+        for name, stages in STAGES_OF.items()
+    }
+    if not scene.has("elastic_contact"):
+        return planned(
+            scene, {name: said for name, said in WHY.items() if name not in ELASTIC}, needed, seconds
+        )
+    per = 0.02 if drive.teeth is None or drive.teeth.pins_on == "ring" else 0.04
+    seconds |= {"bodies": 1.5, "contact": 2 * per * scene.ask.positions, "lost motion": 4 * per * 24}
+    return planned(scene, WHY, needed, seconds, "slices", 400.0)

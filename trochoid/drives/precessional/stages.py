@@ -13,6 +13,7 @@ from trochoid.kinematics.errors import Infeasible
 from trochoid.scene.drive_precessional import PrecessionalScene
 
 if TYPE_CHECKING:
+    from trochoid.drives.precessional.contact_stages import Slack, Solved, Teeth
     from trochoid.drives.precessional.elastic import Elastic
     from trochoid.drives.precessional.mechanism import PrecessionalDrive
     from trochoid.drives.precessional.modes import NaturalModes
@@ -42,6 +43,10 @@ class Stages:
         made = self.design
         with self.clock.stage("geometry"):
             reasons = faults(made)
+            if not reasons and self.scene.has("elastic_contact"):
+                from trochoid.drives.precessional.rim import rim_faults
+
+                reasons = rim_faults(made)
             if reasons:
                 raise Infeasible("\n".join(reasons))
         return made
@@ -77,6 +82,25 @@ class Stages:
     def elastic(self) -> Elastic | None:
         """Steady motion of the yielding members; None where nothing yields."""
         return None if self.yielding is None else self.yielding.elastic
+
+    @cached_property
+    def teeth(self) -> Teeth | None:
+        """The elastic teeth, before anything is solved; None without teeth."""
+        from trochoid.drives.precessional.contact_stages import Teeth
+
+        if self.feasible.tooth is None:
+            return None
+        return Teeth(self.design, self.clock, None if self.yielding is None else self.yielding.joints)
+
+    @cached_property
+    def contact(self) -> Solved | None:
+        """Rollers and teeth over a pitch on two mesh levels; None without teeth."""
+        return None if self.teeth is None else self.teeth.solved()
+
+    @cached_property
+    def slack(self) -> Slack | None:
+        """The output turned both ways under a small torque; None without teeth."""
+        return None if self.teeth is None or self.contact is None else self.teeth.slack(self.contact)
 
     @cached_property
     def reactions(self) -> Mapping[str, Turn]:

@@ -29,5 +29,7 @@ QUANTITIES = answers(
             "power_loss",
             "bearing_loads",
         ),
+        "answers_stress": ("stress_max",),
+        "answers_dynamics": ("reactions", "vibration_velocity", "vibration_zone"),
     },
 )

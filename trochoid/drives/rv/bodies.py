@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from trochoid.drives.rv.contact import plane
 from trochoid.drives.rv.design import Design
-from trochoid.fem.body import build_body
+from trochoid.fem.body import Body, build_body
 from trochoid.fem.compliance import press
 from trochoid.fem.position import ElasticBody
 from trochoid.geometry.mesh import Mesh, mesh_outline
@@ -21,6 +21,7 @@ class Level:
     """All distinct discs on one mesh level, and the stiffness of one mesh of sun and planet, N/m."""
 
     facets_per_lobe: int
+    bodies: tuple[Body, ...]
     elastic: tuple[ElasticBody, ...]
     teeth: float
 
@@ -39,10 +40,11 @@ def build_level(design: Design, facets_per_lobe: int, made: tuple[Mesh, ...], te
 
     Raises NotConverged for a compliance that is far from symmetric: the mesh does not see how sharply a flank bends.
     """
-    elastic = []
+    bodies, elastic = [], []
     for mesh, outline in zip(made, _outlines(design, facets_per_lobe), strict=True):
         pressed = [loop for loop in outline.loops if loop.name == "flank" or loop.name.startswith("hole")]
-        compliance = press(build_body(mesh, plane(design)), pressed)
+        bodies.append(build_body(mesh, plane(design)))
+        compliance = press(bodies[-1], pressed)
         if compliance.asymmetry > LOPSIDED:
             raise NotConverged(
                 f"the discs' compliance is not resolved with {facets_per_lobe} facets per lobe: it differs by "
@@ -50,4 +52,4 @@ def build_level(design: Design, facets_per_lobe: int, made: tuple[Mesh, ...], te
                 f"limit {1e3 * design.flank.undercut_radius:.6g} mm, or set a larger accuracy.tolerance"
             )
         elastic.append(ElasticBody(compliance, design.drive.cycloid.face_width))
-    return Level(facets_per_lobe, tuple(elastic), teeth)
+    return Level(facets_per_lobe, tuple(bodies), tuple(elastic), teeth)

@@ -60,6 +60,12 @@ class Layout(Shared):
         """Return the columns of motions (…, k) that are those of the crankshafts."""
         return np.asarray(values[..., [self.names.index(name) for name in self.supports.names]])
 
+    def on_all(self, columns: Array) -> Array:
+        """Return rows (…, k) on the crankshafts' motions as rows on all."""
+        rows = np.zeros((*columns.shape[:-1], len(self.names)))
+        rows[..., [self.names.index(name) for name in self.supports.names]] = columns
+        return rows
+
     def springs(self, matrix: Array) -> Array:
         """Return a stiffness on the crankshafts' motions as one on all (k, k)."""
         at = [self.names.index(name) for name in self.supports.names]

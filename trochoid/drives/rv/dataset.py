@@ -28,6 +28,9 @@ STIFFNESS, ERROR, LINES, TEETH = (
     "Stiffness of the teeth",
 )
 YIELDING = "Where the drive yields"
+REACTIONS, CHANGE = "Bearing reactions", "Elastic less rigid reactions"
+REACTION_LINES, VELOCITY = "Harmonics of the bearing reactions", "Vibration velocity"
+FAINT = 1e-4  # of the loudest line: what is not shown
 CAPTIONS = {
     SHARING: "Force of every ring pin on each disc, and each disc's share of the torque.",
     CRANKS: "Size of the force of each crankshaft on the carrier, A at the lower z.",
@@ -37,6 +40,10 @@ CAPTIONS = {
     STIFFNESS: "Torque per angle at the output with the input held: the tangent at the operating torque.",
     LINES: "Amplitude over the order, in multiples of the input speed; the crankshafts turn once in each.",
     TEETH: "One mesh of sun and planet over a base pitch, along the line of action.",
+    REACTIONS: "Size of the force in each bearing of crankshafts and carrier, A at the lower z.",
+    CHANGE: "Size of the vector difference: what the inertia of the members' elastic motion adds.",
+    REACTION_LINES: "Larger half axis of the force vector's ellipse in the carrier's frame over the order, in multiples of the input speed.",
+    VELOCITY: "Amplitude at all lines that the casing feels, by the vector sum of all forces on it.",
     YIELDING: "Share of each part in the angle of the output per torque.",
 }
 PART_WORDS = {
@@ -63,6 +70,17 @@ def dataset(stages: Stages, wanted: Collection[str]) -> xarray.Dataset:
         order = order_of(stages.design) * np.arange(1, len(entries["transmission_error_lines"][1]) + 1)
         coordinates["order"] = entry(("order",), order, "", "order, multiple of the input speed")
         coordinates[ANGLE] = entry((ANGLE,), stages.contact.fine.angle, "rad", "input angle")
+    if "reactions" in wanted:
+        entries |= _reactions(stages)
+        coordinates["reaction_angle"] = entry(("reaction_angle",), stages.reactions.angle, "rad", "input angle")
+        names = reaction_names(stages)
+        coordinates["reaction"] = named("reaction", names, "bearing, A at the lower z")
+    if "vibration" in wanted:
+        found = stages.vibration.elastic
+        entries |= _vibration(stages)
+        coordinates["frequency"] = entry(("frequency",), found.frequencies[heard(stages)], "Hz", "frequency")
+        coordinates["point"] = named("point", tuple(p.name for p in found.points), "point on the casing")
+        coordinates["direction"] = named("direction", ("x", "y", "z"), "direction in the fixed frame")
     if "teeth" in wanted:
         path, dims = stages.teeth.fine, ("sun_angle",)
         entries["tooth_stiffness"] = _shown(dims, path.stiffness, "N/m", "stiffness of one mesh", TEETH)
@@ -92,6 +110,7 @@ def _places(stages: Stages) -> Entries:
         "roller": numbered("roller", drive.arm_bearing.rollers, "roller of a turning-arm bearing"),
         "bearing": named("bearing", ("bearing A", "bearing B"), "bearing of a crankshaft, A at the lower z"),
         "axis": named("axis", ("x", "y"), "direction in the carrier's frame"),
+        "component": named("component", ("x", "y", "z"), "direction in the carrier's frame"),
         "part": named("part", tuple(PART_WORDS[name] for name in PARTS), "part of the drive"),
     }
 
@@ -195,4 +214,63 @@ def _lines(stages: Stages) -> Entries:
         "transmission_error_lines": _shown(
             ("order",), amplitude, "rad", "amplitude of the transmission error", LINES, scale="log"
         ),
+    }
+
+
+def reaction_names(stages: Stages) -> tuple[str, ...]:
+    """Return the bearings of all crankshafts and of the carrier."""
+    cranks = range(1, stages.scene.drive.first_stage.cranks + 1)
+    return (*(f"crankshaft {j} {b}" for j in cranks for b in "AB"), "carrier A", "carrier B")
+
+
+def _reactions(stages: Stages) -> Entries:
+    from trochoid.drives.rv.spectrum import force_lines
+
+    found, dims = stages.reactions, ("reaction_angle", "reaction")
+    made: Entries = {}
+    models = {"rigid": found.rigid} | ({} if found.elastic is None else {"elastic": found.elastic})
+    vectors = {
+        name: np.concatenate([x.crank.reshape(len(found.angle), -1, 2), x.main], axis=1)
+        for name, x in models.items()
+    }
+    for name, force in vectors.items():
+        size = np.linalg.norm(force, axis=-1)
+        made[f"reaction_{name}"] = _shown(dims, size, "N", f"reaction, {name}", REACTIONS)
+        said = f"components of the {name} reaction, carrier's frame"
+        made[f"reaction_{name}_components"] = entry((*dims, "axis"), force, "N", said)
+        lines = np.stack([force_lines(force[:, b, None]) for b in range(force.shape[1])], axis=1)[1:]
+        said = f"amplitude, {name}"
+        made[f"reaction_lines_{name}"] = _shown(
+            ("order", "reaction"), lines, "N", said, REACTION_LINES, scale="log"
+        )
+    if "elastic" in vectors:
+        change = np.linalg.norm(vectors["elastic"] - vectors["rigid"], axis=-1)
+        made["reaction_change"] = _shown(dims, change, "N", "difference", CHANGE)
+    vector = ("reaction_angle", "component")
+    for name, load in (("rigid", found.casing_rigid), ("elastic", found.casing)):
+        said = f"on the casing about the origin, {name} reactions, carrier's frame"
+        made[f"casing_force_{name}"] = entry(vector, load.force, "N", f"force {said}")
+        made[f"casing_moment_{name}"] = entry(vector, load.moment, "N*m", f"moment {said}")
+    return made
+
+
+def heard(stages: Stages) -> npt.NDArray[np.bool_]:
+    """Return which lines (f,) of the vibration are not empty: the record is longer than the load's period."""
+    size = np.abs(stages.vibration.elastic.velocity).max(axis=(0, 1))
+    return np.asarray(size >= FAINT * size.max(initial=0.0))
+
+
+def _vibration(stages: Stages) -> Entries:
+    found, dims = stages.vibration, ("frequency", "point", "direction")
+    lines = heard(stages)
+    elastic, rigid = (np.moveaxis(v.velocity, -1, 0)[lines] for v in (found.elastic, found.rigid))
+    low, high = found.elastic.band
+    band, by_rigid = f"{low:g} to {high:g} Hz", "by the rigid reactions"
+    return {
+        "vibration_velocity": _shown(
+            dims, np.abs(elastic), "m/s", "amplitude of the velocity", VELOCITY, scale="log"
+        ),
+        "vibration_velocity_rigid": entry(dims, np.abs(rigid), "m/s", f"amplitude of the velocity {by_rigid}"),
+        "vibration_rms": entry(dims[1:], found.elastic.rms, "m/s", f"rms velocity, {band}"),
+        "vibration_rms_rigid": entry(dims[1:], found.rigid.rms, "m/s", f"rms velocity {by_rigid}, {band}"),
     }

@@ -5,77 +5,87 @@ from __future__ import annotations
 import math
 
 from trochoid.drives.rv.design import Design
-from trochoid.drives.rv.first_stage import Stage
-from trochoid.geometry.check import bearing_faults, disc_faults, stack_faults, window_faults
+from trochoid.drives.rv.first_stage import Stage, first_stage
+from trochoid.geometry.check import bearing_faults, disc_faults, root_radius, stack_faults, window_faults
 from trochoid.geometry.planetary_quality import Condition, Limits, outer_conditions
 from trochoid.kinematics.assembly import coaxial, cranks_assemble, neighbors_clear
 from trochoid.kinematics.errors import Infeasible
-from trochoid.kinematics.involute_pair import mesh, mesh_at
+from trochoid.kinematics.involute_pair import mesh
 from trochoid.kinematics.meshing import cycloid_faults, flank_faults
+from trochoid.scene.drive_rv import FirstStage
 
 LIMITS = Limits(tip_thickness=0.0, contact_ratio=1.0)
-GRID = 0.001  # of the shifts that are tried for advice
 
 
 def faults(design: Design) -> tuple[str, ...]:
     """Return one sentence per fault: what was given, the limit, the nearest feasible value."""
-    found = cycloid_faults(design.flank)
-    table = design.drive.first_stage
-    found += tuple(
-        check.fault for check in (cranks_assemble(table.z_sun, table.z_planet, table.cranks),) if check.fault
-    )
-    try:
-        stage = design.first
-    except Infeasible as fault:
-        return (*found, f"first_stage: {fault}")
-    if found:  # without profiles nothing else has a meaning
-        return (*found, *stage_faults(design, stage))
-    ground = design.flank.modified(design.modification)
-    found += tuple(f"modified flank: {fault}" for fault in flank_faults(ground))
-    found += stage_faults(design, stage)
-    found += _disc(design) + _bearing(design) + _crankshaft(design) + _ring(design)
+    table, profile = design.drive.first_stage, cycloid_faults(design.flank)
+    stage = stage_reasons(table)
+    reached = not _unreachable(table)
+    placed = _placed(design) if reached and not profile else ()
+    found = profile + stage
+    if not profile:  # without profiles nothing else has a meaning
+        ground = design.flank.modified(design.modification)
+        found += tuple(f"modified flank: {fault}" for fault in flank_faults(ground))
+        found += placed + (_around(design) if reached else ())
+        found += _bearing(design) + _crankshaft(design) + _ring(design)
+    if stage or (placed and design.first.arm >= root_radius(design.flank)):
+        found += _advice(design, bool(profile))
     return tuple(dict.fromkeys(found))
 
 
-def stage_faults(design: Design, stage: Stage) -> tuple[str, ...]:
-    """Return what is wrong with the involute stage: undercut, pointed tips, interference, coaxiality, neighbours."""
-    table, pair = design.drive.first_stage, stage.pair
-    checks = [neighbors_clear("planets", table.cranks, stage.arm, stage.tips[1])]
+def stage_reasons(table: FirstStage) -> tuple[str, ...]:
+    """What is wrong with the involute stage: assembly, undercut, pointed tips, interference, coaxiality, neighbours."""
+    checks = [cranks_assemble(table.z_sun, table.z_planet, table.cranks, advise=False)]
+    try:
+        stage = first_stage(table)
+    except Infeasible as fault:
+        return (*(check.fault for check in checks if check.fault), f"first_stage: {fault}")
+    checks.append(neighbors_clear("planets", table.cranks, stage.arm, stage.tips[1], advise=False))
     if table.center_distance is not None:
-        tight = mesh(pair.first, pair.second)
-        checks.append(coaxial(tight, table.center_distance, 1e-3 * table.module))
-    found = tuple(check.fault for check in checks if check.fault)
+        tight = mesh(stage.pair.first, stage.pair.second)
+        checks.append(coaxial(tight, table.center_distance, 1e-3 * table.module, advise=False))
     failed = [c for c in conditions(stage) if c.required and not c.fulfilled]
-    if not failed:
-        return found
-    near = _nearest(stage)
-    advice = "no shift at this centre distance fulfils all conditions; take other teeth"
-    if near is not None:
-        advice = f"the nearest feasible shifts are x_sun = {near[0]:.4g}, x_planet = {near[1]:.4g}"
-    return found + tuple(f"first_stage: {_sentence(c)}; {advice}" for c in failed)
+    return (
+        *(check.fault for check in checks if check.fault),
+        *(f"first_stage: {_sentence(c)}" for c in failed),
+    )
+
+
+def _unreachable(table: FirstStage) -> bool:
+    try:
+        first_stage(table)
+    except Infeasible:
+        return True
+    return False
+
+
+def _advice(design: Design, without_discs: bool) -> tuple[str, ...]:
+    """What near it can be built as a whole."""
+    from trochoid.drives.rv.advice import advice
+    from trochoid.drives.rv.design import design as made
+
+    def also(table: FirstStage) -> tuple[str, ...]:
+        if without_discs:
+            return ()
+        scene = design.scene
+        drive = scene.drive.model_copy(update={"first_stage": table})
+        changed = made(scene.model_copy(update={"drive": drive}))
+        return _placed(changed) + _around(changed)
+
+    room = (0.0, math.inf) if without_discs else _room(design)
+    return advice(design.drive.first_stage, LIMITS, stage_reasons, also, room)
+
+
+def _room(design: Design) -> tuple[float, float]:
+    """Between what radii (m) the crank holes find material of the discs."""
+    hole = design.drive.arm_bearing.hole_radius
+    return design.drive.cycloid.bore_radius + hole, root_radius(design.flank) - hole
 
 
 def conditions(stage: Stage) -> tuple[Condition, ...]:
     """Return the conditions of sun and planet with their margins."""
     return outer_conditions(stage.pair, stage.tips, LIMITS)
-
-
-def _nearest(stage: Stage) -> tuple[float, float] | None:
-    """Return the shifts nearest to the given ones that fulfil all conditions at the same centre distance and play."""
-    from dataclasses import replace
-
-    pair = stage.pair
-    x1, x2 = float(pair.first.shift), float(pair.second.shift)
-    steps = range(1, math.ceil(2.0 / GRID))
-    for step in (sign * GRID * k for k in steps for sign in (1.0, -1.0)):
-        one, two = replace(pair.first, shift=x1 + step), replace(pair.second, shift=x2 - step)
-        tips = stage.tips[0] + one.module * step, stage.tips[1] - one.module * step
-        if min(tips[0] - one.base_radius, tips[1] - two.base_radius) <= 0.0:
-            continue
-        moved = Stage(mesh_at(one, two, stage.arm), tips, stage.backlash)
-        if all(c.fulfilled for c in conditions(moved) if c.required):
-            return x1 + step, x2 - step
-    return None
 
 
 def _sentence(c: Condition) -> str:
@@ -84,7 +94,8 @@ def _sentence(c: Condition) -> str:
     return f"{c.name}: {float(c.value):.5g} must be {c.relation} {float(c.limit):.5g}"
 
 
-def _disc(design: Design) -> tuple[str, ...]:
+def _placed(design: Design) -> tuple[str, ...]:
+    """Return what is wrong with the discs' holes, which stand on the centre distance, and their widths."""
     c, found = design.drive.cycloid, tuple[str, ...]()
     for body in range(len(design.hole_angles)):
         holes = design.holes(body)
@@ -131,14 +142,33 @@ def _crankshaft(design: Design) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _ring(design: Design) -> tuple[str, ...]:
-    ring, c = design.drive.ring, design.drive.cycloid
-    limit = c.pin_circle_radius + c.pin_radius
-    if ring.outer_radius > limit:
+def _around(design: Design) -> tuple[str, ...]:
+    """Return what is wrong with the carrier, whose plates hold crankshafts and pillars."""
+    carrier, shafts = design.drive.carrier, design.first.arm + design.drive.crankshaft.radius
+    pillars = carrier.pillars
+    limit = max(shafts, 0.0 if pillars is None else pillars.circle_radius + pillars.radius)
+    if carrier.outer_radius >= limit * (1.0 - 1e-12):
         return ()
+    what = "crankshafts" if limit == shafts else "pillars"
     return (
-        f"ring.outer_radius = {_mm(ring.outer_radius)}: it must enclose the pins, more than {_mm(limit)}",
+        f"carrier.outer_radius = {_mm(carrier.outer_radius)}: the {what} stick out of the carrier; it must be at least "
+        f"{_mm(limit)}",
     )
+
+
+def _ring(design: Design) -> tuple[str, ...]:
+    ring, c, found = design.drive.ring, design.drive.cycloid, []
+    limit = c.pin_circle_radius + c.pin_radius
+    if ring.outer_radius <= limit:
+        found.append(
+            f"ring.outer_radius = {_mm(ring.outer_radius)}: it must enclose the pins, more than {_mm(limit)}"
+        )
+    if ring.width < design.pack_width * (1.0 - 1e-12):
+        found.append(
+            f"ring.width = {_mm(ring.width)}: the pins are as long as the ring and must reach all discs; it must be at "
+            f"least the width of the pack, {_mm(design.pack_width)}"
+        )
+    return tuple(found)
 
 
 def _mm(length: float) -> str:

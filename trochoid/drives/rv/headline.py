@@ -21,8 +21,12 @@ ABSENT_EFFECTS = {
         "Crankshafts, their bearings and the rollers of the turning-arm bearings are rigid: the drive comes out much "
         "too stiff."
     ),
-    "inertia": "No member has mass in the equations: forces are those of a drive that creeps.",
+    "inertia": (
+        "No member has mass in the equations: forces are those of a drive that creeps, without unbalance and without a "
+        "response to it."
+    ),
     "friction": "Flanks and teeth slide without losses: there is no efficiency.",
+    "casing_on_mounts": "The casing stands still: there is no vibration velocity and no zone to judge it by.",
 }
 NEVER_SIMULATED = {
     "friction of bearings, seals and oil": (
@@ -37,7 +41,7 @@ NEVER_SIMULATED = {
     "tilting of discs and rollers": "Discs stay in their planes, and rollers carry evenly over their length.",
     "teeth that change stiffness": (
         "Sun and planets are a spring of constant stiffness; what its ripple adds to the transmission error is divided "
-        "by the ratio of the second stage."
+        "by the ratio of the second stage. Their noise is not in the vibration."
     ),
     "manufacturing errors": (
         "Pins, lobes, teeth, crank holes and eccentrics are alike and in place: errors of pitch and size load some "

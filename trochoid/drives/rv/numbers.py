@@ -5,12 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from trochoid.drives.mesh_error import scalar_error
+from trochoid.drives.mesh_error import Pair, scalar_error
 from trochoid.drives.rv.stages import Stages
 from trochoid.results.outcome import Quantity
 
 if TYPE_CHECKING:
     from trochoid.drives.rv.series import Series
+
+
+def number(
+    s: Stages, value: float, both: Pair[float], unit: str, model: str | None = None
+) -> Quantity:
+    """Return a number, its error from two mesh levels, and the model that gave it (the contact model unless named)."""
+    error = None if both.coarse is None else scalar_error(both.fine, both.coarse, s.difference)
+    return Quantity(value, unit, error, model or s.rung)
 
 
 def over_turn(s: Stages, get: Callable[[Series], float], unit: str) -> Quantity:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from trochoid.drives.rv import headline
-from trochoid.drives.rv.plan import WHY
+from trochoid.drives.rv.plan import why
 from trochoid.drives.rv.stages import Stages
 from trochoid.results.outcome import Check, Outcome, Quantity, Stage
 
@@ -22,7 +22,7 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     made = Outcome(
         scene=stages.scene.model_dump(mode="json"),
         quantities=quantities,
-        not_needed=tuple(name for name in WHY if name not in ran),
+        not_needed=tuple(name for name in why(stages.scene) if name not in ran),
         title=headline.title(stages),
         facts=headline.facts(stages),
         not_simulated=headline.not_simulated(stages.scene, "contact" in ran),
@@ -32,11 +32,17 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     if "geometry" in ran:
         with stages.clock.stage("figures"):
             from trochoid.drives.rv.dataset import dataset
-            from trochoid.drives.rv.picture import drawing, plots
+            from trochoid.drives.rv.picture import drawing, fields, plots
 
             made = replace(
-                made, dataset=dataset(stages, ran), drawing=drawing(stages), plots=plots(stages.design)
+                made,
+                dataset=dataset(stages, ran),
+                drawing=drawing(stages),
+                plots=plots(stages.design),
+                fields=fields(stages) if "stress" in ran else (),
             )
+    if "reactions" in ran:
+        made = replace(made, notes={"Rigid and elastic reactions": stages.reactions.reason})
     seconds = stages.clock.seconds
     return replace(made, stages=tuple(Stage(name, seconds[name]) for name in seconds))
 
@@ -60,6 +66,8 @@ def checks(stages: Stages) -> tuple[Check, ...]:
     }
     if "losses" in stages.clock.seconds:
         found["sun and ring give what is stored and lost"] = (stages.losses.fine.residual, BALANCE)
+    if "reactions" in stages.clock.seconds:
+        found["reactions on the casing sum to the members' inertia"] = (stages.reactions.residual, BALANCE)
     if not np.isnan(split).any():
         found["compliances of the parts add up to the whole"] = (float(split.max()), SUM)
     return tuple(Check(name, value, limit, bool(value <= limit)) for name, (value, limit) in found.items())
@@ -81,4 +89,17 @@ def warnings(stages: Stages) -> tuple[str, ...]:
             "the teeth of a planet are pulled at some positions: they would lift off and fall back, which is not in "
             "the model; raise operation.output_torque or lower first_stage.sun_stiffness"
         )
+    ran = stages.clock.seconds
+    if "reactions" in ran:
+        found = stages.reactions
+        if found.mismatch > 0.01:
+            said.append(
+                "forces do not repeat after a turn of the crankshafts, because rollers stand elsewhere: "
+                f"{100 * found.mismatch:.2g} % of the largest bearing force was taken out as a ramp before spectra "
+                "were made"
+            )
+        if found.response is not None:
+            said += found.response.warnings
+    if "vibration" in ran:
+        said += stages.vibration.elastic.warnings
     return tuple(said)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from trochoid.drives.disc_field import disc_field
 from trochoid.drives.disc_pack import circle
 from trochoid.drives.paths import Path, framed
 from trochoid.drives.rv.design import Design
@@ -14,7 +15,7 @@ from trochoid.drives.rv.stages import Stages
 from trochoid.kinematics.involute_curve import GearCurve
 from trochoid.kinematics.motion import PlaneMotion, flange_lead
 from trochoid.kinematics.types import Array, frozen
-from trochoid.results.outcome import Arrow, Drawing
+from trochoid.results.outcome import Arrow, Drawing, FieldFrame
 from trochoid.results.plot import Axis, Plot, PlotCurve
 
 FLANK_POINTS, TOOTH_POINTS = 780, 24
@@ -131,6 +132,19 @@ def _crankshaft(design: Design, angles: Array, j: int) -> Iterator[Path]:
     yield Path(f"crankshaft {j + 1}", frozen(shaft.to_fixed(circle(radius, SMALL))), SHAFTS)
     mark = shaft.to_fixed([[0.0, 0.0], [radius, 0.0]])
     yield Path(f"angle of crankshaft {j + 1}", frozen(mark), SHAFTS, closed=False)
+
+
+def carrier_angle(design: Design, angle: float) -> float:
+    """Return how far the carrier has turned at an input angle (rad); contacts are given in its frame."""
+    return float(design.speeds.members["carrier"]) * angle
+
+
+def fields(stages: Stages) -> tuple[FieldFrame, ...]:
+    """Return the discs' displacement and stress at the asked position, at their axial places."""
+    states = [disc.state for disc in stages.field.fine]
+    turn = carrier_angle(stages.design, states[0].angle)
+    bodies = tuple(disc_field(_name(i), state, turn) for i, state in enumerate(states))
+    return ((states[0].angle, bodies),)
 
 
 def cage_turn(design: Design, angles: Array) -> Array:

@@ -8,6 +8,7 @@ from trochoid.drives.rv.design import design
 from trochoid.drives.rv.stages import COARSEST, Stages
 from trochoid.plan import Plan
 from trochoid.scene.drive_rv import RvScene
+from trochoid.scene.needs import NEEDS
 
 _GEOMETRY = ("kinematics", "geometry")
 _CONTACT = (*_GEOMETRY, "mesh", "teeth", "bodies", "contact")
@@ -28,7 +29,11 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "lost_motion": (*_CONTACT, "reversal"),
     "efficiency": (*_CONTACT, "losses"),
     "power_loss": (*_CONTACT, "losses"),
+    "stress_max": (*_CONTACT, "stress"),
     "bearing_loads": _CONTACT,
+    "reactions": (*_CONTACT, "mass", "reactions"),
+    "vibration_velocity": (*_CONTACT, "mass", "reactions", "vibration"),
+    "vibration_zone": (*_CONTACT, "mass", "reactions", "vibration"),
     "balance": (*_GEOMETRY, "mass"),
     "mass": (*_GEOMETRY, "mass"),
 }
@@ -42,13 +47,23 @@ WHY = {
     "bodies": "factor of each distinct disc, its compliance at every facet",
     "contact": "all contacts together over a turn of the crankshafts, on both levels",
     "losses": "the running drive with friction, at a few angles",
+    "stress": "von Mises field at one position, tension in the fillets of the teeth",
+    "reactions": "bearing reactions over a turn of the crankshafts, rigid and elastic",
+    "vibration": "velocity of the casing on its mounts",
     "reversal": "twist under a small torque to either side, at a few angles",
 }
 
 
+def why(scene: RvScene) -> dict[str, str]:
+    """Return what the stages are for that exist with the scene's effects."""
+    open_to = [name for name, needs in NEEDS["rv"].items() if all(map(scene.has, needs))]
+    able = {stage for name in open_to for stage in STAGES_OF[name]}
+    return {name: said for name, said in WHY.items() if name in able}
+
+
 def plan(scene: RvScene) -> Plan:
     """Return what a run would do; raises Infeasible with every reason when the drive cannot be built."""
-    made = planned(scene, WHY, STAGES_OF, _seconds(scene), _model(scene), 300.0)
+    made = planned(scene, why(scene), STAGES_OF, _seconds(scene), _model(scene), 300.0)
     if any(stage.needed and stage.name == "geometry" for stage in made.stages):
         Stages(scene, Clock()).feasible  # noqa: B018 - raises Infeasible with every reason
     return made
@@ -76,4 +91,7 @@ def _seconds(scene: RvScene) -> dict[str, float]:
         "contact": 1.25 * positions * slower * contacts**1.5 * 0.013,
         "losses": 2.5 * contacts,
         "reversal": 0.8 * contacts,
+        "stress": 0.8 * c.discs + 0.3,
+        "reactions": 0.3,
+        "vibration": 0.3,
     }

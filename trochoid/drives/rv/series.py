@@ -12,7 +12,7 @@ from trochoid.drives.rv.breakdown import compliance_parts
 from trochoid.drives.rv.contact import Layout, assembly, layout
 from trochoid.drives.rv.design import Design
 from trochoid.fem.position import Assembly, Contact, Touch, solve_positions
-from trochoid.fem.rows import joined
+from trochoid.fem.rows import joined, taken
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array, IntArray, frozen
 
@@ -41,7 +41,7 @@ class Touches:
 @dataclass(frozen=True, slots=True)
 class Series:
     """Contacts at input angles (n,) in rad, `crank` (n,) as seen from the carrier, `motion` (n, k) on the layout's
-    names. `parts` (n, p): shares of the ring's compliance in rad/(N·m), see `breakdown`; `compliance` (n,) the whole,
+    names with its tangent `stiffness` (n, k, k). `parts` (n, p): shares of the ring's compliance in rad/(N·m), see `breakdown`; `compliance` (n,) the whole,
     nan where nothing resists. `imbalance` (n,) and `penetration` (n,) are relative residuals.
     """
 
@@ -52,6 +52,7 @@ class Series:
     ring: Touches
     arm: Touches
     motion: Array
+    stiffness: Array
     compliance: Array
     parts: Array
     imbalance: Array
@@ -105,6 +106,16 @@ def solve_series(
     return joined(parts)
 
 
+def solve_at(design: Design, rung: str, level: Level, angle: float) -> Contact:
+    """Solve one input angle in rad; arrays have no axis of positions. Raises NotConverged."""
+    motions, crank = layout(design, level.teeth), design.crank_angle(np.array([angle]))
+    try:
+        found = solve_positions(assembly(design, motions, level.elastic, crank), resolve=rung == "strips")
+    except NotConverged as fault:
+        raise NotConverged(f"at input angle {np.degrees(angle):.6g}°: {fault}") from fault
+    return taken(found, 0)
+
+
 def _gathered(
     design: Design, rung: str, angle: Array, problem: Assembly, motions: Layout, contact: Contact
 ) -> Series:
@@ -120,6 +131,7 @@ def _gathered(
         _touches([touches[f"ring{i}"] for i in discs], design.drive.cycloid.face_width),
         Touches(*(frozen(np.stack([getattr(x, f.name) for x in arms], axis=1)) for f in fields(Touches))),
         frozen(contact.motion),
+        frozen(contact.stiffness),
         frozen(softness[:, -1]),
         frozen(compliance_parts(problem, motions, contact, softness)),
         frozen(contact.imbalance),

@@ -16,11 +16,14 @@ from trochoid.scene.drive_rv import RvScene
 
 if TYPE_CHECKING:
     from trochoid.drives.rv.bodies import Level
+    from trochoid.drives.rv.field import DiscStress
     from trochoid.drives.rv.mass import Masses
+    from trochoid.drives.rv.reactions import Reactions
     from trochoid.drives.rv.reversal import Reversal
     from trochoid.drives.rv.running import Running
     from trochoid.drives.rv.series import Series
     from trochoid.drives.rv.teeth import Teeth
+    from trochoid.drives.vibration import CasingVibration
     from trochoid.geometry.mesh import Mesh
     from trochoid.kinematics.types import Array
 
@@ -194,3 +197,59 @@ class Stages:
             from trochoid.drives.rv.running import run
 
             return solved.levels.map(lambda level: run(self.design, rung, level))
+
+    @cached_property
+    def field(self) -> Pair[tuple[DiscStress, ...]]:
+        """Displacement and stress of every disc at the asked position."""
+        solved, rung = self.contact, self.rung
+        angle = self.scene.ask.stress_position or 0.0
+        with self.clock.stage("stress"):
+            from trochoid.drives.rv.field import disc_stresses
+
+            return solved.levels.map(lambda level: disc_stresses(self.design, rung, level, angle))
+
+    @cached_property
+    def roots(self) -> Pair[tuple[Array, Array]]:
+        """Tension in the fillets of sun and planet over a base pitch."""
+        made = self.teeth
+        with self.clock.stage("stress"):
+            from trochoid.drives.rv.teeth import root_stress
+
+            return made.map(root_stress)
+
+    @cached_property
+    def reactions(self) -> Reactions:
+        """Reactions of all bearings over a turn of the crankshafts."""
+        return self._reactions(self.contact.fine)
+
+    @cached_property
+    def reaction_levels(self) -> Pair[Reactions]:
+        """The same at every fourth position on both mesh levels; on none where these are too few."""
+        both = self.contact.pair
+        if both.coarse is None or len(both.fine.angle) < 4:
+            return Pair(self.reactions, None)
+        return both.map(self._reactions)
+
+    def _reactions(self, series: Series) -> Reactions:
+        parts, damping = self.masses, self.scene.operation.damping_ratio
+        with self.clock.stage("reactions"):
+            from trochoid.drives.rv.reactions import reactions
+
+            return reactions(self.design, series, parts, damping)
+
+    @cached_property
+    def vibration(self) -> CasingVibration:
+        """Vibration velocity of the casing."""
+        return self._vibration(self.reactions)
+
+    @cached_property
+    def vibration_levels(self) -> Pair[CasingVibration]:
+        """The same from the reactions on both mesh levels."""
+        both = self.reaction_levels
+        return Pair(self.vibration, None) if both.coarse is None else both.map(self._vibration)
+
+    def _vibration(self, found: Reactions) -> CasingVibration:
+        with self.clock.stage("vibration"):
+            from trochoid.drives.rv.vibration import casing_vibration
+
+            return casing_vibration(self.design, found)

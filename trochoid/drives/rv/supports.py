@@ -27,7 +27,9 @@ class Supports:
 
     `stiffness[part]` (k, k) is the share of each part, their sum the whole. Per unit motion: `bearings` (j, 2, 2, k)
     displacement x, y of crankshaft j in its bearing A, B, `meshes` (j, k) approach of the teeth, `sun` (2, k) of the
-    sun; `teeth`, `bearing`, `sun_spring` in N/m turn them into forces.
+    sun; `teeth`, `bearing`, `sun_spring` in N/m turn them into forces. `centers` (j, p, 2, k): displacement of each
+    crankshaft's axis at the `places` (p,) m on the z axis: discs, bearings A and B, planet; `turns` (j, d + 1, k) its
+    rotation at discs and planet.
     """
 
     names: tuple[str, ...]
@@ -38,6 +40,9 @@ class Supports:
     teeth: float
     bearing: float
     sun_spring: float
+    places: Array
+    centers: Array
+    turns: Array
 
     @property
     def total(self) -> Array:
@@ -80,7 +85,8 @@ def supports(design: Design, teeth: float) -> Supports:
     size, twists = 2 * at + discs + 1, [*range(discs), at - 1]
     count = cranks * size + 2
     parts = {part: np.zeros((count, count)) for part in PARTS}
-    bearings, meshes = np.zeros((cranks, 2, 2, count)), np.zeros((cranks, count))
+    centers, turns = np.zeros((cranks, at, 2, count)), np.zeros((cranks, discs + 1, count))
+    meshes = np.zeros((cranks, count))
     normals, base = pressing(design), design.first.pair.second.base_radius
     for j in range(cranks):
         first = j * size
@@ -90,9 +96,10 @@ def supports(design: Design, teeth: float) -> Supports:
             for line in (x, y):
                 parts["crankshafts"][np.ix_(line, line)] += made.bending
             parts["crankshafts"][np.ix_(spin, spin)] += condensed(made.torsion, twists)
+        centers[j, range(at), 0, x] = centers[j, range(at), 1, y] = 1.0
+        turns[j, range(discs + 1), spin] = 1.0
         for b in range(2):
-            bearings[j, b, 0, x[discs + b]] = bearings[j, b, 1, y[discs + b]] = 1.0
-            one = bearings[j, b]
+            one = centers[j, discs + b]
             parts["crank_bearings"] += table.bearing_stiffness * one.T @ one
         meshes[j, spin[-1]] = base
         meshes[j, [x[-1], y[-1]]] = -normals[j]
@@ -108,12 +115,15 @@ def supports(design: Design, teeth: float) -> Supports:
     return Supports(
         names,
         {part: frozen(shape.T @ matrix @ shape) for part, matrix in parts.items()},
-        frozen(bearings @ shape),
+        frozen(centers[:, discs : discs + 2] @ shape),
         frozen(meshes @ shape),
         frozen(shape[-2:]),
         teeth,
         table.bearing_stiffness,
         held,
+        frozen(places),
+        frozen(centers @ shape),
+        frozen(turns @ shape),
     )
 
 

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from trochoid.drives.rv.contact import plane
 from trochoid.drives.rv.design import Design
 from trochoid.drives.rv.mesh_stiffness import light, mean_stiffness
 from trochoid.fem.gear_body import press_gear
 from trochoid.fem.gear_mesh import Wheel
-from trochoid.fem.gear_path import Mating, base_pitch, solve_path
+from trochoid.fem.gear_pair import GearPair
+from trochoid.fem.gear_path import Mating, Path, base_pitch, mating_assembly, solve_path
+from trochoid.fem.gear_root import pair_loads, root_table, tooth_stress
 from trochoid.geometry.gear_outline import Blank
 from trochoid.geometry.gear_tooth import Tooth, sharpest
 from trochoid.kinematics.types import Array, frozen
@@ -21,13 +25,15 @@ LEAST = 1e3  # N/m: a drive without load has teeth as stiff as under this one
 @dataclass(frozen=True, slots=True)
 class Teeth:
     """One mesh at n angles of the sun over a base pitch: tangent `stiffness` (n,) in N/m and transmission error `error`
-    (n,) in m on the line of action, `pressure` (n,) in Pa, the largest.
+    (n,) in m on the line of action, `pressure` (n,) in Pa, the largest; the wheels and what was solved.
     """
 
     angle: Array
     stiffness: Array
     error: Array
     pressure: Array
+    mating: Mating
+    path: Path
 
     @property
     def mean(self) -> float:
@@ -50,7 +56,24 @@ def teeth(design: Design, facets: int) -> Teeth:
     mating = Mating((wheels[0], wheels[1]), stage.arm, torque)
     angle = base_pitch(mating, POSITIONS)
     path = solve_path(mating, angle)
-    return Teeth(frozen(angle), path.stiffness, path.error, frozen(path.pressure.max(axis=1)))
+    return Teeth(frozen(angle), path.stiffness, path.error, frozen(path.pressure.max(axis=1)), mating, path)
+
+
+def root_stress(made: Teeth) -> tuple[Array, Array]:
+    """Return the largest tension (n,) in Pa in the fillets of the loaded teeth of sun and planet.
+
+    A planet has this mesh alone; bores are held, without the stress of a fit.
+    """
+    pair = mating_assembly(made.mating, made.angle).families[0].pair
+    assert isinstance(pair, GearPair)
+    state, force = made.path.contact.touches["mesh0"].state, made.path.force
+    found = []
+    for second, wheel in enumerate(made.mating.wheels):
+        stress = tooth_stress(
+            root_table(wheel.body), pair_loads(pair, state, force, bool(second)), wheel.width
+        )
+        found.append(frozen(np.where(force > 0.0, stress, 0.0).max(axis=1)))
+    return found[0], found[1]
 
 
 def iso_stiffness(design: Design) -> float:

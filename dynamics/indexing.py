@@ -1,0 +1,136 @@
+"""A wheel that is driven by a pin through an elastic contact, stopped, and held: one mass, or two with a shaft.
+
+The pin prescribes an angle ψ(t), the wheel lags behind by d, its load behind the wheel by e (a shaft's twist):
+
+    J1 θ1'' = s N(s d) + β s² N' d' − (k e + β k e'),   J2 θ2'' = k e + β k e' − M_f sign θ2',   θ1 = ψ − d, θ2 = θ1 − e,
+
+s(t) the sine of the angle from the wheel's axis to the pin, N(u) the contact.  In the dwell ψ rests and a lock with a
+constant stiffness takes the place of the contact.  The fourth-order method of Runge and Kutta with steps that are a
+part of the shortest period; Coulomb friction sticks and slips at instants found within a step.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from trochoid.dynamics.indexing_march import March, Output, State
+from trochoid.dynamics.pin_law import PinLaw
+from trochoid.kinematics.errors import NotConverged
+from trochoid.kinematics.types import Array
+
+STEPS = 64  # per shortest period
+MOST = 200_000  # steps of an index
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Index:
+    """One index and its dwell: `duration` and `rest` in s, and `sample`, which gives for instants (n,) from the start
+    of the index the lever s, and ψ', ψ'' in the sense of the index, (n,) each.
+    """
+
+    duration: float
+    rest: float
+    sample: Callable[[Array], tuple[Array, Array, Array]]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Course:
+    """Over the instants `time` (n,): `lag` d and `twist` e (rad), their rates, and the `torque` on the wheel, N·m.
+
+    `base` (n,) is ψ'; `balance` is the energy that is missing at the end, to the work done.
+    """
+
+    time: Array
+    lag: Array
+    rate: Array
+    twist: Array
+    twist_rate: Array
+    torque: Array
+    base: Array
+    balance: float
+
+    @property
+    def deviation(self) -> Array:
+        """How far the output is from where a rigid drive would have it (n,), rad."""
+        return np.asarray(-self.lag - self.twist)
+
+    @property
+    def speed(self) -> Array:
+        """Speed of the output less that of a rigid drive (n,), rad/s."""
+        return np.asarray(-self.rate - self.twist_rate)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Response:
+    """Courses of the index and of the dwell that follows, time from the start of each; `stuck`: friction holds it."""
+
+    index: Course
+    dwell: Course
+    stuck: bool
+
+
+def respond(index: Index, output: Output, law: PinLaw, steps: int = STEPS) -> Response:
+    """March through an index and its dwell, from rest without load; `steps` per shortest period.
+
+    Raises NotConverged where an index holds more periods than can be followed.
+    """
+    s = index.sample(np.linspace(0.0, index.duration, 65))[0]
+    stiffest = max(output.lock, float(s.max()) ** 2 * law.stiffest)
+    fastest = output.frequencies_at(stiffest)[-1]
+    h = 2.0 * math.pi / (steps * fastest)
+    if output.damping > 0.0:
+        h = min(h, 2.0 / (output.damping * fastest**2))  # else the method is not stable
+    count = math.ceil(index.duration / h)
+    if count > MOST:
+        raise NotConverged(
+            f"response of the wheel: the index lasts {index.duration * fastest / (2.0 * math.pi):.3g} of its shortest "
+            f"natural periods ({2.0 * math.pi / fastest:.3g} s), and more than {MOST // steps} are not followed: it is "
+            f"nearly quasi-static; leave the vibration out, or take a speed at least {count / MOST:.3g} times as high"
+        )
+    at = index.sample(np.linspace(0.0, index.duration, 2 * count + 1))
+    start = (0.0, float(at[1][0]), 0.0, 0.0, 0.0, 0.0)
+    march = March(output, law.torque(output.damping))
+    h_index = index.duration / count
+    states, grip = march.run(at, h_index, start, march.begin(start, start[1], True))
+    d, p, e, g = (float(x) for x in states[-1, :4])
+    return Response(
+        _course(march, at, h_index, states), *_dwell(index.rest, h, output, (d, p, e, g, 0.0, 0.0), grip.held)
+    )
+
+
+def _dwell(rest: float, h: float, output: Output, start: State, held: bool) -> tuple[Course, bool]:
+    """March in steps of about h through the dwell, or until nothing moves; deviations from a base at rest."""
+    k, damp = output.lock, output.damping * output.lock
+    march = March(output, lambda d, p, _: k * d + damp * p, rest=True)
+    count = min(max(math.ceil(rest / h), 1), MOST)
+    h = min(h, rest / count)
+    still = np.zeros(2 * count + 1)
+    at = (still + 1.0, still, still)
+    states, grip = march.run(at, h, start, march.begin(start, 0.0, held))
+    return _course(march, at, h, states), grip.held
+
+
+def _course(march: March, at: tuple[Array, Array, Array], h: float, states: Array) -> Course:
+    n = len(states)
+    lever, base = (x[: 2 * n : 2] for x in at[:2])
+    rows = zip(states.tolist(), lever.tolist(), strict=True)
+    torque = np.array([march.torque(y[0], y[1], s) for y, s in rows])
+    d, p, e, g = states[:, :4].T
+    return Course(h * np.arange(n), d, p, e, g, torque, base, _missing(march.output, states, base))
+
+
+def _missing(output: Output, states: Array, base: Array) -> float:
+    """Energy that is neither in the masses and the shaft nor lost, to all the work of the pin and what there was."""
+    first, last = (_state(states[i]) for i in (0, -1))
+    before, after = output.energy(first, float(base[0])), output.energy(last, float(base[-1]))
+    size = abs(last[4]) + last[5] + before + after
+    return abs(last[4] - last[5] + before - after) / size if size > 0.0 else 0.0
+
+
+def _state(row: Array) -> State:
+    d, p, e, g, work, loss = row.tolist()
+    return d, p, e, g, work, loss

@@ -1,0 +1,292 @@
+"""Planetary sets that move: modes, reactions with inertia, the casing's vibration, load over the face width."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+from tests.drives.planetary_cases import (
+    ELASTIC,
+    ERRORS,
+    EXAMPLE,
+    FLOATING,
+    INERTIA,
+    RELIEF,
+    level_of,
+    series_of,
+    stages_of,
+)
+from trochoid.clock import Clock
+from trochoid.drives.planetary.contact import Layout
+from trochoid.drives.planetary.face import faces
+from trochoid.drives.planetary.meshes import matings, meshes
+from trochoid.drives.planetary.modes import SetModes, assembled, natural_modes
+from trochoid.drives.planetary.moving import MAIN, Moving, moving
+from trochoid.drives.planetary.reactions import Reactions, reactions
+from trochoid.drives.planetary.stages import Stages
+from trochoid.drives.planetary.vibration import casing_vibration, whole_pitches
+from trochoid.dynamics.spectrum import harmonics
+from trochoid.dynamics.supports import Support
+from trochoid.dynamics.whirl import whirl
+from trochoid.kinematics.types import Array
+from trochoid.scene import read
+
+LIN_AND_PARKER = {  # J. Vib. Acoust. 121 (1999) 316, Table 2: natural frequencies, Hz, by number of planets
+    3: (
+        (0.0, 1475.7, 1930.3, 2658.3, 7462.8, 11775.3),
+        (743.2, 1102.4, 1896.0, 2276.4, 6986.3, 9647.9),
+    ),
+    4: (
+        (0.0, 1536.6, 1970.6, 2625.7, 7773.6, 13071.1),
+        (727.0, 1091.0, 1892.8, 2342.5, 7189.9, 10437.6),
+    ),
+    5: (
+        (0.0, 1567.4, 2006.1, 2614.9, 8065.4, 14253.1),
+        (710.3, 1072.0, 1888.1, 2425.3, 7382.2, 11172.3),
+    ),
+}
+PLANET_MODES = (1808.2, 5963.8, 6981.7)
+SHAFTS = ("drive.sun.torsional_stiffness=20000", "drive.ring.torsional_stiffness=500000")
+
+
+def lumped(planets: int) -> Moving:
+    """Lin and Parker's set: rigid wheels on springs, rotations as lengths on base circles."""
+    members = (*MAIN, *(f"planet{i}" for i in range(planets)))
+    layout = Layout(tuple(f"{m}.{a}" for m in members for a in ("x", "y", "rotation")), "carrier", True)
+    count = len(layout.names)
+    masses = {"sun": (0.4, 0.39), "ring": (2.35, 3.0), "carrier": (5.43, 6.29)}
+    pairs = [masses.get(m, (0.66, 0.61)) for m in members]
+    supports = [Support(m, layout.rows(m)[:2], 1e8 * np.eye(2)) for m in MAIN]
+    supports.append(Support("ring shaft", layout.rows("ring")[2:], np.array([[1e9]])))
+    teeth, alpha = np.zeros((count, count)), np.radians(24.6)
+    for i in range(planets):
+        psi = 2.0 * np.pi * i / planets
+        planet = layout.rows(f"planet{i}")
+        radial = np.cos(psi) * planet[0] + np.sin(psi) * planet[1]
+        orbit = np.cos(psi) * planet[1] - np.sin(psi) * planet[0]
+        seat = layout.seat(np.array([np.cos(psi), np.sin(psi)]))
+        supports.append(Support(f"planet{i}", planet[:2] - seat, 1e8 * np.eye(2)))
+        for wheel, turn, sense in (("sun", psi - alpha, 1.0), ("ring", psi + alpha, -1.0)):
+            x, y, u = layout.rows(wheel)
+            deflection = np.cos(turn) * y - np.sin(turn) * x + u + sense * planet[2]
+            deflection = deflection - sense * np.sin(alpha) * radial - np.cos(alpha) * orbit
+            teeth += 5e8 * np.outer(deflection, deflection)
+    still = np.zeros((1, count))
+    return Moving(
+        layout,
+        layout.names,
+        np.eye(count),
+        np.array([x for m, j in pairs for x in (m, m, j)]),
+        np.zeros((count, count)),
+        tuple(supports),
+        teeth[None],
+        still,
+        still,
+        1.0,
+    )
+
+
+def of_kind(found: SetModes, kind: str) -> Array:
+    return np.array([mode.frequency for mode in found.modes if mode.turns == kind])
+
+
+@pytest.mark.published
+@pytest.mark.parametrize("planets", LIN_AND_PARKER)
+def test_natural_frequencies_of_lin_and_parker(planets: int) -> None:
+    """All 9 + 3N frequencies of their Table 2 by kind: six rotational, six pairs, three of N − 3 for the planets."""
+    found = natural_modes(lumped(planets))
+    rotational, translational = LIN_AND_PARKER[planets]
+    assert found.free == 1
+    assert of_kind(found, "rotational") == pytest.approx(rotational[1:], abs=0.06)
+    pairs = of_kind(found, "translational")
+    assert pairs[::2] == pytest.approx(pairs[1::2], rel=1e-9)
+    assert pairs[::2] == pytest.approx(translational, abs=0.06)
+    planet = np.repeat(PLANET_MODES, planets - 3)
+    assert of_kind(found, "planet mode") == pytest.approx(planet, abs=0.06)
+
+
+@lru_cache(maxsize=16)
+def moved(
+    *overrides: str,
+    effects: tuple[str, ...] = (ELASTIC, FLOATING, INERTIA),
+    positions: int = 12,
+    phased: bool = False,
+    relief: float = 0.0,
+) -> tuple[Stages, Moving, Reactions]:
+    """The small set on one mesh level."""
+    stages, series = series_of(
+        *overrides, effects=effects, positions=positions, phased=phased, relief=relief
+    )
+    level = level_of(relief=relief, phased=phased)
+    made = moving(stages.feasible, stages.speeds, stages.masses, series, level)
+    return stages, made, reactions(made, series, stages.scene.operation.damping_ratio)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("phased", [False, True])
+def test_modes_of_solved_contacts_have_their_symmetry(phased: bool) -> None:
+    """Planets alike: with the carrier at rest pairs of one frequency, each mode of one kind; planets out of phase too."""
+    _, set_, _ = moved(phased=phased)
+    found = whirl(assembled(set_, 0.0)).frequency
+    modes = natural_modes(set_)
+    kinds = [mode.turns for mode in modes.modes]
+    assert kinds.count("rotational") == 4 + 1 - 1 + 0 or kinds.count("rotational") == 4
+    assert kinds.count("translational") == 2 * 5
+    assert np.abs(modes.kinds.max(axis=1) - 1.0).max() < 1e-6
+    pairs = np.flatnonzero(np.diff(found) < 1e-6 * found[1:])
+    assert len(pairs) == 5
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("effects", "overrides"),
+    [
+        ((ELASTIC, INERTIA), ()),
+        ((ELASTIC, FLOATING, INERTIA), SHAFTS),
+        ((ELASTIC, FLOATING, INERTIA, ERRORS), ("drive.planet.position_errors=[0.02]", *SHAFTS)),
+        ((ELASTIC, INERTIA), ('drive.fixed="carrier"',)),
+        ((ELASTIC, FLOATING, INERTIA), ('drive.fixed="sun"', 'drive.driving="ring"', *SHAFTS)),
+        ((ELASTIC, FLOATING, INERTIA), ('drive.driving="carrier"',)),
+    ],
+)
+def test_forces_and_work_of_the_moving_set_balance(
+    effects: tuple[str, ...], overrides: tuple[str, ...]
+) -> None:
+    """Newton's second and third law and the work over a period, ≤ 1e-9; mean torques are those of equilibrium."""
+    stages, set_, found = moved(*overrides, effects=effects)
+    assert max(found.balance, found.seats, found.work) < 1e-9
+    assert found.loss > 0.0
+    assert found.growth < 1.0
+    driven = stages.scene.drive.driven
+    assert found.torque[driven] == pytest.approx(np.full(12, stages.rigid.torques[driven]), rel=1e-9)
+    for name in MAIN:
+        assert found.torque[name].mean() == pytest.approx(stages.rigid.torques[name], rel=5e-3)
+    # all forces on the casing together are the inertia of all members
+    whole = sum(found.force.values())
+    loads = np.stack([found.inertia[:, axis::3].sum(axis=1) for axis in (0, 1)], axis=1)
+    assert whole == pytest.approx(loads, abs=1e-9 * np.abs(found.bearing).max())
+    assert set_.motion.shape == found.motion.shape
+
+
+@pytest.mark.property
+def test_elastic_reactions_become_rigid() -> None:
+    """All stiffnesses × 1e7: torques, meshes and bearings of the rigid set within 1e-6, and the rest falls as 1/k."""
+
+    def apart(factor: float) -> float:
+        words = (
+            f"materials.steel.youngs_modulus={210000.0 * factor!r}",
+            *(f"drive.{name}.bearing_stiffness={200000.0 * factor!r}" for name in ("sun", "planet", "carrier")),
+            f"drive.sun.torsional_stiffness={20000.0 * factor!r}",
+        )
+        stages = stages_of(*words, effects=(ELASTIC, FLOATING, INERTIA))
+        level = stages.level(6)
+        series = stages.series(level, "level0", 8)
+        made = moving(stages.feasible, stages.speeds, stages.masses, series, level)
+        found, rigid = reactions(made, series, 0.02), stages.rigid
+        bearing = np.linalg.norm(found.bearing, axis=-1) / rigid.bearing - 1.0
+        mesh = found.mesh / rigid.outer.normal - 1.0
+        torque = [found.torque[name] / rigid.torques[name] - 1.0 for name in MAIN]
+        left = [np.abs(force).max() / rigid.bearing for force in found.force.values()]
+        return float(max(np.abs(bearing).max(), np.abs(mesh).max(), np.abs(torque).max(), *left))
+
+    soft, stiff = apart(1e2), apart(1e7)
+    assert stiff < 1e-6
+    assert 1e-6 < soft < 1e-2
+    assert stiff < 1e-4 * soft
+
+
+@pytest.mark.independent
+def test_a_set_that_creeps_has_no_inertia() -> None:
+    """At a thousandth of the speed the forces are those without inertia, and what is left falls with its square."""
+
+    def added(speed: float) -> float:
+        _, _, found = moved(f"operation.input_speed={speed}", *SHAFTS, effects=(ELASTIC, FLOATING, INERTIA))
+        return float(np.abs(found.mesh - found.static_mesh).max())
+
+    assert added(1.5) == pytest.approx(1e-2 * added(15.0), rel=1e-2)
+    assert added(1.5) < 1e-4 * added(1500.0)
+
+
+CASING = (
+    'casing={mass=10, inertia=[0.1,0.1,0.2], mounts=[{position=[100,0,0], stiffness=[3000,4000,5000]},'
+    "{position=[-100,0,0], stiffness=[3000,4000,5000]}], points=[{name='side', position=[50,0,0]}]}"
+)
+
+
+@pytest.mark.independent
+def test_equal_planets_shake_the_casing_by_torque_alone() -> None:
+    """v = ω T/(k − J ω²) · arm at each harmonic of the torque that the ring hands on; bearings feel nothing."""
+    stages, _, found = moved(CASING, effects=(ELASTIC, FLOATING, INERTIA))
+    shaken = casing_vibration(stages.feasible, stages.speeds, found).elastic
+    assert whole_pitches(stages.feasible) == 54
+    stiffness = 2.0 * 4e6 * 0.1**2
+    for h in (1, 2, 3):
+        omega = h * found.speed
+        torque = np.abs(harmonics(found.torque["ring"]))[h]
+        at = int(np.argmin(np.abs(shaken.frequencies - omega / (2.0 * np.pi))))
+        assert np.abs(shaken.velocity[0, 1, at]) == pytest.approx(
+            abs(omega * torque / (stiffness - 0.2 * omega**2) * 0.05), rel=1e-6
+        )
+    assert np.abs(shaken.velocity[0, 0]).max() < 1e-6 * np.abs(shaken.velocity[0, 1]).max()
+
+
+@pytest.mark.exact
+def test_flanks_without_lead_carry_evenly() -> None:
+    stages = stages_of("drive.lead.slices=5")
+    found = faces(stages.feasible, level_of(), stages.load, 3)
+    assert found.outer.factor == pytest.approx(np.ones(3), rel=1e-9)
+    assert found.inner.factor == pytest.approx(np.ones(3), rel=1e-9)
+
+
+@pytest.mark.independent
+def test_misaligned_flanks_carry_as_springs_beside_each_other() -> None:
+    """K = 1 + F_β c b/(2 F) while all of the width carries, with the mesh's own stiffness per width c."""
+    stages = stages_of("drive.lead.slices=15", "drive.lead.sun_and_planet.misalignment=0.002")
+    found = faces(stages.feasible, level_of(), stages.load, 4)
+    path = meshes(stages.feasible, level_of(), stages.load, 4).outer
+    force = matings(stages.feasible, level_of(), stages.load)[0].normal_force
+    ends = 14.0 / 15.0  # of the outermost slices' middles
+    wanted = 1.0 + 0.5 * ends * 2e-6 * path.stiffness / force
+    assert wanted.max() < 2.0
+    assert found.outer.factor == pytest.approx(wanted, rel=0.03)
+    assert found.inner.factor == pytest.approx(np.ones(4), rel=1e-9)
+
+
+@pytest.mark.property
+def test_what_is_not_listed_is_not_there() -> None:
+    """Without inertia, and without a lead: the parts of before, and no stage of the moving set runs."""
+    stages = stages_of(effects=(ELASTIC,))
+    from trochoid.drives.planetary.answers_contact import load_sharing
+    from trochoid.drives.planetary.answers_forces import reactions as answer
+
+    assert set(answer(stages).parts or {}) == {*MAIN, "sun_and_planet", "planet_and_ring"}
+    assert "bodies" not in stages.clock.seconds
+    assert "face_load_factor" not in (load_sharing(stages).parts or {})
+    assert not {"face", "dynamics", "reactions"} & set(stages.clock.seconds)
+
+
+@pytest.mark.property
+def test_answers_of_the_moving_set() -> None:
+    """Through the scene: both models, harmonics, kinds of modes, velocities with a zone, all with errors."""
+    words = EXAMPLE.read_text(encoding="utf-8")
+    words = re.sub(r"^(teeth|bore_radius) = .*\n", "", words, flags=re.M)
+    scene = read(words, ["ask.positions=8", "accuracy.facets_per_lobe=12", 'accuracy.model="level0"'])
+    stages = Stages(scene, Clock())
+    from trochoid.drives.planetary import answers_dynamics, answers_forces
+    from trochoid.drives.planetary.headline import not_simulated
+    from trochoid.drives.planetary.moving_entries import moving_entries
+
+    made = answers_forces.reactions(stages).parts or {}
+    assert set(made) == {"rigid", "elastic"}
+    modes = answers_dynamics.natural_frequencies(stages)
+    assert len(modes.parts or {}) >= 15
+    velocity = answers_dynamics.vibration_velocity(stages).parts or {}
+    assert set(velocity) == {"output bearing", "foot"}
+    assert answers_dynamics.vibration_zone(stages).value in ("A", "B", "C", "D")
+    entries, coordinates = moving_entries(stages, ("reactions", "vibration"))
+    assert {dim for dims, *_ in entries.values() for dim in dims} >= set(coordinates)
+    assert "Only the face load factor" in not_simulated(scene)["load over the face width"]
+    assert RELIEF

@@ -1,0 +1,192 @@
+"""What elasticity makes of the soft shocks: wheel and output over an index and its dwell, from rest."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from trochoid.drives.indexer.design import GENEVA, INDEXER, SHOWN
+from trochoid.drives.indexer.pin import Pair
+from trochoid.drives.indexer.wheel import WheelMass
+from trochoid.dynamics.indexing import STEPS, Index, Response, respond
+from trochoid.dynamics.indexing_march import Output
+from trochoid.dynamics.pin_law import PinLaw
+from trochoid.fem.pin_slot import Pressed, press
+from trochoid.kinematics.errors import Infeasible
+from trochoid.kinematics.indexer import Indexer, motion
+from trochoid.kinematics.types import Array
+from trochoid.scene.drive_indexer import IndexerScene
+
+SAME_TIME = "geneva_wheel_in_same_time"
+NAMES = SHOWN | {SAME_TIME: "Geneva wheel in the same time"}
+SETTLED = 0.05  # of its amplitude, below which a vibration has settled
+LARGER = 4.0  # times, by which the table of the law grows when a response leaves it
+TRIES = 6
+
+
+@dataclass(frozen=True, eq=False)
+class Shaken:
+    """The elastic response of one mechanism beside its rigid forces; `coarse` has steps twice as long."""
+
+    pair: Pair
+    output: Output
+    fine: Response
+    coarse: Response
+
+    @property
+    def speed(self) -> float:
+        """Speed of the arm, rad/s."""
+        return self.pair.forces.load.speed
+
+    def angle(self, time: Array) -> Array:
+        """Drive angles (n,) from the middle of the index, rad."""
+        return time * self.speed - self.pair.forces.indexer.half_turn
+
+    def pin_force(self, found: Response) -> Array:
+        """Pin force (n,) in N over the index, positive where it drives."""
+        lever = np.sin(self.pair.forces.indexer.reach(self.angle(found.index.time)))
+        return np.asarray(found.index.torque / (self.pair.pin.distance * lever))
+
+    @property
+    def rigid(self) -> Array:
+        """Pin force (n,) in N of the rigid drive at the same instants."""
+        state = self.pair.forces.state(self.angle(self.fine.index.time))
+        return np.asarray(state.pin * self.pair.forces.indexer.sense)
+
+    @cached_property
+    def peak(self) -> tuple[float, float]:
+        """Largest pin force (N) and its drive angle (rad)."""
+        force = np.abs(self.pin_force(self.fine))
+        i = int(force.argmax())
+        return float(force[i]), float(self.angle(self.fine.index.time[i]))
+
+    @property
+    def factor(self) -> tuple[float, float]:
+        """Largest pin force over that of the rigid drive, and its error by the length of the steps."""
+        other = float(np.abs(self.pin_force(self.coarse)).max())
+        rigid = self.pair.largest[0]
+        return self.peak[0] / rigid, abs(self.peak[0] - other) / rigid
+
+    @property
+    def at_entry(self) -> float:
+        """Largest pin force in the first natural period over that with which the rigid drive starts; nan without one."""
+        first = self.fine.index.time <= 2.0 * math.pi / self.output.frequencies[0]
+        start = abs(float(self.rigid[0]))
+        return (
+            float(np.abs(self.pin_force(self.fine)[first]).max()) / start
+            if start > 1e-9 * self.pair.largest[0]
+            else math.nan
+        )
+
+    @property
+    def pressed(self) -> Pressed:
+        """Pin and wall under the largest pin force."""
+        return press(self.pair.pin, self.pair.law.pressed(np.array([self.peak[0] * self.pair.pin.distance])))
+
+    @property
+    def amplitude(self) -> tuple[float, float]:
+        """Largest deviation of the output after the stop (rad), and its error by the length of the steps."""
+        one, two = (float(np.abs(x.dwell.deviation).max()) for x in (self.fine, self.coarse))
+        return one, abs(one - two)
+
+    @property
+    def settling(self) -> float:
+        """Time (s) after the stop from which the output stays within a part of its amplitude of where it ends."""
+        dwell = self.fine.dwell
+        away = np.abs(dwell.deviation - self.offset)
+        outside = np.flatnonzero(away > SETTLED * self.amplitude[0])
+        return float(dwell.time[outside[-1]]) if outside.size else 0.0
+
+    @property
+    def offset(self) -> float:
+        """Where friction holds the output in the end (rad), 0 where it still swings."""
+        return float(self.fine.dwell.deviation[-1]) if self.fine.stuck else 0.0
+
+    @property
+    def left(self) -> float:
+        """Part of the amplitude with which the output still swings when the next index starts."""
+        dwell, period = self.fine.dwell, 2.0 * math.pi / self.output.frequencies[0]
+        rest = 2.0 * (math.pi - self.pair.forces.indexer.half_turn) / self.speed
+        if dwell.time[-1] < rest - 1e-9 * rest:  # it had ended
+            return 0.0
+        late = dwell.time > rest - period
+        return float(np.abs(dwell.deviation[late] - self.offset).max()) / self.amplitude[0]
+
+    @property
+    def balance(self) -> float:
+        """Energy that is missing in index or dwell, to the work done."""
+        return max(self.fine.index.balance, self.fine.dwell.balance)
+
+
+def shaken(scene: IndexerScene, wheel: WheelMass, pairs: Mapping[str, Pair]) -> Mapping[str, Shaken]:
+    """March both mechanisms, and the Geneva wheel a third time with its index in the time of the indexer's."""
+    asked = dict(pairs)
+    if GENEVA in pairs:
+        ours, theirs = pairs[INDEXER].forces, pairs[GENEVA].forces
+        speed = theirs.load.speed * theirs.indexer.half_turn / ours.indexer.half_turn
+        asked[SAME_TIME] = replace(
+            pairs[GENEVA], forces=replace(theirs, load=replace(theirs.load, speed=speed))
+        )
+    return {name: _shaken(scene, wheel, pair) for name, pair in asked.items()}
+
+
+def output_of(scene: IndexerScene, wheel: WheelMass, pair: Pair) -> Output:
+    """Return the masses and springs that a pin drives."""
+    shaft, load = scene.drive.output_shaft, pair.forces.load
+    far = shaft.inertia or 0.0
+    made = Output(wheel.used, load.friction, lock_of(scene, pair))
+    if far > 0.0:
+        made = (
+            replace(made, shaft=shaft.stiffness, load=far)
+            if shaft.stiffness
+            else replace(made, inertia=wheel.used + far)
+        )
+    return replace(made, damping=2.0 * scene.operation.damping_ratio / made.frequencies[0])
+
+
+def lock_of(scene: IndexerScene, pair: Pair) -> float:
+    """Stiffness (N·m/rad) of what holds the wheel: as given, or that of the pin at the end of an index."""
+    given = scene.drive.wheel.lock_stiffness
+    if given is not None:
+        return given
+    lever = math.sin(float(pair.forces.indexer.reach(pair.forces.indexer.half_turn)))
+    return lever**2 * float(
+        pair.law.slope(pair.law.pressed(np.array([pair.largest[0] * pair.pin.distance])))[0]
+    )
+
+
+def _shaken(scene: IndexerScene, wheel: WheelMass, pair: Pair) -> Shaken:
+    output = output_of(scene, wheel, pair)
+    index = _index(pair.forces.indexer, pair.forces.load.speed)
+    for _ in range(TRIES):
+        fine = respond(index, output, pair.law)
+        lever = index.sample(fine.index.time)[0]
+        if float(np.abs(fine.index.torque / lever).max()) <= pair.law.largest:
+            return Shaken(pair, output, fine, respond(index, output, pair.law, STEPS // 2))
+        pair = replace(pair, law=_longer(pair))
+    raise Infeasible(
+        f"the pin strikes its slot with more than {pair.law.largest / pair.pin.distance:.3g} N; "
+        "give pin.play a smaller value, or operation.input_speed"
+    )
+
+
+def _longer(pair: Pair) -> PinLaw:
+    from trochoid.dynamics.pin_law import pin_law
+
+    return pin_law(lambda u: press(pair.pin, u).moment, LARGER * pair.law.top, pair.law.play)
+
+
+def _index(indexer: Indexer, speed: float) -> Index:
+    half, sense = indexer.half_turn, indexer.sense
+
+    def sample(time: Array) -> tuple[Array, Array, Array]:
+        t = np.clip(time * speed - half, -half, half)
+        at = motion(indexer, t)
+        velocity = np.maximum(sense * speed * at.velocity, 0.0)  # not less but for rounding
+        return np.sin(indexer.reach(t)), velocity, sense * speed**2 * at.acceleration
+
+    return Index(2.0 * half / speed, 2.0 * (math.pi - half) / speed, sample)

@@ -1,0 +1,214 @@
+"""Torsional vibration of the driven member: its inertia on the drive's stiffness, excited by the transmission error.
+
+The input turns evenly.  With x the lag of the driven member behind its ideal angle (rad), T the load torque (N·m),
+
+    J ẍ + c ẋ + k(φ) [x − e(φ)]_g = T,     e = x_s − T/k less its mean,  [x]_g: what x is beyond ±g,
+
+x_s(φ) and k(φ) are lag and tangent stiffness of all contacts at rest under T.  At creeping speed x = x_s + const.
+Which of it is in the equations the scene's effects say: without "time_varying_stiffness" k is its mean, without
+"backlash" the contacts pull, too.  A single coordinate: discs turn with the driven member, all else follows at once.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+
+from trochoid.drives.khv.design import Design
+from trochoid.drives.khv.mass import Masses
+from trochoid.drives.khv.series import Series
+from trochoid.dynamics.floquet import growth
+from trochoid.dynamics.harmonic_balance import Periodic, steady
+from trochoid.dynamics.local_law import Law, Local, gap
+from trochoid.dynamics.sweep import sweep
+from trochoid.dynamics.system import System
+from trochoid.kinematics.errors import NotConverged, TrochoidError
+from trochoid.kinematics.types import Array, ComplexArray, frozen
+
+VARYING, BACKLASH = "time_varying_stiffness", "backlash"
+SLOWEST, FASTEST, SPEEDS = 0.2, 2.0, 73  # of the speed of operation
+INSTANTS, EVERY = 160, 3  # over a turn, and which of the speeds: for the growth of small motions
+CREEP = 1e-3  # of the natural frequency, for the highest harmonic
+STABLE = 1e-6  # how far a multiplier may be above 1 by rounding
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pendulum:
+    """The driven member on the drive: `inertia` J kg·m², `damping` c, `torque` T; over n input angles of a turn
+    `stiffness` k (n,) N·m/rad and `error` e (n,) rad; half the play `half_gap` g, rad.
+    """
+
+    inertia: float
+    damping: float
+    torque: float
+    stiffness: Array
+    error: Array
+    half_gap: float
+
+    @property
+    def mean_stiffness(self) -> float:
+        """Mean of k, N·m/rad."""
+        return float(self.stiffness.mean())
+
+    @property
+    def natural_frequency(self) -> float:
+        """√(k/J)/2π with the mean stiffness, Hz."""
+        return float(np.sqrt(self.mean_stiffness / self.inertia)) / (2.0 * np.pi)
+
+    @property
+    def system(self) -> System:
+        """Inertia and damping; the stiffness is in the local law."""
+        one = np.ones((1, 1))
+        return System(frozen(self.inertia * one), frozen(self.damping * one), frozen(0.0 * one))
+
+    @property
+    def local(self) -> Local:
+        """The drive's torque over lag and input angle."""
+        return Local("drive", np.ones(1), law(self), self.mean_stiffness, self.half_gap)
+
+    @property
+    def harmonics(self) -> int:
+        """The highest order of the input speed that the angles resolve."""
+        return (len(self.error) - 1) // 2
+
+    def loads(self, speed: float) -> ComplexArray:
+        """Return the load torque, which does not vary."""
+        lines = np.zeros((self.harmonics + 1, 1), dtype=np.complex128)
+        lines[0] = self.torque
+        return lines
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Torsional:
+    """Steady motion at the speed of operation, and over `speeds` (p,), rad/s, swept up and down: peak to peak (p,),
+    rad, of what it is beyond that at creeping speed.  `growth` (q,) of a small motion over a turn at `tried` (q,),
+    rad/s, the speed of operation the first: above 1 it excites itself.
+    """
+
+    pendulum: Pendulum
+    motion: Periodic
+    speeds: Array
+    up: Array
+    down: Array
+    tried: Array
+    growth: Array
+
+    @property
+    def torques(self) -> tuple[float, float]:
+        """Least and largest torque in the drive over the turn, N·m."""
+        return float(self.motion.force.min()), float(self.motion.force.max())
+
+    @property
+    def jumps(self) -> Array:
+        """Speeds (j,) at which both sweeps differ: there are two motions."""
+        return np.asarray(
+            self.speeds[np.abs(self.up - self.down) > 1e-3 * (np.abs(self.up) + np.abs(self.down))]
+        )
+
+    @property
+    def unstable(self) -> Array:
+        """Speeds (j,) at which the varying stiffness excites itself."""
+        return np.asarray(self.tried[self.growth > 1.0 + STABLE])
+
+
+def pendulum(design: Design, series: Series, masses: Masses, damping: float) -> Pendulum:
+    """Read the driven member's equation off the contacts over a turn; raises TrochoidError for a drive that is free."""
+    torque = design.scene.operation.output_torque
+    share = 1.0 / design.leverage
+    stiffness = series.torsional_stiffness[:-1] / share**2
+    if not torque > 0.0 or not (stiffness > 0.0).all():
+        raise TrochoidError(
+            "torsional vibration is about a loaded drive: give operation.output_torque above 0, enough for the drive "
+            "to resist at every input angle"
+        )
+    lag = share * series.twist[:-1]
+    unloaded = lag - torque / stiffness
+    inertia = driven_inertia(design, masses)
+    mean = float(stiffness.mean())
+    varies = design.scene.has(VARYING)
+    error = (
+        lag - lag.mean() - (torque / stiffness - np.mean(torque / stiffness)) if varies else lag - lag.mean()
+    )
+    return Pendulum(
+        inertia,
+        2.0 * damping * float(np.sqrt(mean * inertia)),
+        torque,
+        frozen(stiffness if varies else np.full_like(stiffness, mean)),
+        frozen(error),
+        max(float(unloaded.mean()), 0.0) if design.scene.has(BACKLASH) else 0.0,
+    )
+
+
+def driven_inertia(design: Design, masses: Masses) -> float:
+    """Return the inertia (kg·m²) of what turns with the driven member: flange, pins and discs, or the ring."""
+    d = design.drive
+    if d.fixed == "ring":
+        pins = d.output_pins
+        own = masses.flange.axial_inertia + pins.count * masses.output_pin.mass * pins.circle_radius**2
+        return own + len(design.discs) * masses.disc.axial_inertia
+    return masses.ring.axial_inertia + d.pins * masses.ring_pin.mass * d.pin_circle_radius**2
+
+
+def law(made: Pendulum) -> Law:
+    """Return the drive's torque: stiffness and error are joined between their angles by their harmonics."""
+    beyond = gap(1.0, made.half_gap)
+    order = np.arange(made.harmonics + 1)
+
+    def lines(samples: Array) -> ComplexArray:
+        found = np.asarray(np.fft.rfft(samples)[: len(order)] * (2.0 / len(samples)), dtype=np.complex128)
+        found[0] *= 0.5
+        return found
+
+    both = np.stack([lines(made.stiffness), lines(made.error)], axis=1)
+
+    def torque(lag: Array, phase: Array) -> tuple[Array, Array]:
+        k, e = (np.exp(1j * np.multiply.outer(phase, order)) @ both).real.T
+        pressed, slope = beyond(lag - e, phase)
+        return k * pressed, k * slope
+
+    return torque
+
+
+def torsional(made: Pendulum, speed: float) -> Torsional:
+    """Solve for the motion at `speed` (rad/s) and sweep past it; raises NotConverged where no motion is found."""
+    speeds = speed * np.linspace(SLOWEST, FASTEST, SPEEDS)
+    motion = steady(made.system, (made.local,), made.loads(speed), speed)
+    if made.half_gap == 0.0:  # linear: one motion at any speed
+        up = tuple(steady(made.system, (made.local,), made.loads(float(s)), float(s)) for s in speeds)
+    else:
+        up = sweep(made.system, (made.local,), made.loads, speeds)
+    down = up
+    if made.half_gap > 0.0 and any(each.force.min() <= 0.0 for each in up):
+        with suppress(NotConverged):
+            down = sweep(made.system, (made.local,), made.loads, speeds[::-1])[::-1]
+    still = creeping(made).deflection
+    tried = (motion, *up[::EVERY]) if np.ptp(made.stiffness) > 0.0 else ()
+    return Torsional(
+        made,
+        motion,
+        frozen(speeds),
+        frozen([np.ptp(each.deflection - still) for each in up]),
+        frozen([np.ptp(each.deflection - still) for each in down]),
+        frozen([each.speed for each in tried]),
+        frozen([_growth(made, each) for each in tried]),
+    )
+
+
+def creeping(made: Pendulum) -> Periodic:
+    """Return the motion at a speed so low that nothing but the transmission error is left of it."""
+    slow = CREEP * 2.0 * np.pi * made.natural_frequency / made.harmonics
+    return steady(made.system, (made.local,), made.loads(slow), slow)
+
+
+def _closed(values: Array) -> Array:
+    return np.append(values, values[0])
+
+
+def _growth(made: Pendulum, motion: Periodic) -> float:
+    """Return by what a small motion beside the steady one is multiplied in a turn, at most."""
+    phase = 2.0 * np.pi * np.arange(INSTANTS) / INSTANTS
+    deflection = np.interp(phase, np.append(motion.phase, 2.0 * np.pi), _closed(motion.deflection[:, 0]))
+    slopes = law(made)(deflection, phase)[1]
+    return growth(made.system, (made.local,), slopes[:, None], motion.speed)

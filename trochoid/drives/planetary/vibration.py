@@ -1,0 +1,79 @@
+"""Vibration velocity of the casing that the elastic reactions shake, and the zone that a standard gives it.
+
+The casing feels the forces of the bearings of sun, ring and carrier, in the plane of the teeth, and the torque of the
+member that stands still; driving and driven torques go to other machines. Rigid members press evenly: they shake
+nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from trochoid.drives.planetary.design import Design
+from trochoid.drives.planetary.reactions import Reactions
+from trochoid.dynamics.casing import Casing, Mount
+from trochoid.dynamics.vibration import Point, Vibration, vibrate
+from trochoid.dynamics.wrench import Wrench
+from trochoid.dynamics.zones import Machine, Zone, zone
+from trochoid.kinematics.errors import TrochoidError
+from trochoid.kinematics.train import Speeds
+from trochoid.kinematics.types import Array, frozen
+
+
+@dataclass(frozen=True, slots=True)
+class CasingVibration:
+    """Vibration by the reactions of the moving set, by those of a set without inertia, and the zone."""
+
+    elastic: Vibration
+    static: Vibration
+    zone: Zone
+
+
+def casing_vibration(design: Design, turning: Speeds, found: Reactions) -> CasingVibration:
+    """Shake the casing on its mounts; raises TrochoidError without a casing."""
+    scene, d = design.scene, design.drive
+    if scene.casing is None:
+        raise TrochoidError("vibration needs the scene's [casing] table")
+    table = scene.casing
+    mounts = tuple(Mount(m.position, m.stiffness, m.damping) for m in table.mounts)
+    casing = Casing(table.mass, table.inertia, table.center, mounts)
+    points = tuple(Point(p.name, p.position) for p in table.points) or (Point("centre", table.center),)
+    pitches = whole_pitches(design)
+    base = found.speed / (2.0 * np.pi) / pitches
+    sense = np.sign(float(turning.members["carrier"]))
+    elastic, static = (
+        vibrate(casing, on_casing(force, torque[d.fixed], pitches, sense), base, points)
+        for force, torque in ((found.force, found.torque), (found.static_force, found.static_torque))
+    )
+    speed = scene.operation.input_speed
+    driven = abs(float(turning.members[d.driven])) * speed
+    machine = Machine(
+        scene.operation.output_torque * driven,
+        speed,
+        driven,
+        gear_unit=table.machine != "industrial_machine",
+        rigid_support=table.rigid_support,
+    )
+    return CasingVibration(elastic, static, zone(elastic.rms_max, machine))
+
+
+def whole_pitches(design: Design) -> int:
+    """Return after how many pitches the carrier's frame stands in space as before."""
+    d = design.drive
+    return {"ring": d.z_ring, "sun": d.z_sun, "carrier": 1}[d.fixed]
+
+
+def on_casing(force: Mapping[str, Array], torque: Array, pitches: int, sense: float) -> Wrench:
+    """Return what the casing feels over one turn of the carrier, or over a pitch where that stands still."""
+    whole = np.sum(list(force.values()), axis=0)
+    forces, torque = np.tile(whole, (pitches, 1)), np.tile(torque, pitches)
+    angle = sense * 2.0 * np.pi * np.arange(len(forces)) / len(forces)
+    c, s = np.cos(angle), np.sin(angle)
+    x, y = forces.T
+    turned = np.stack([c * x - s * y, s * x + c * y, np.zeros_like(x)], axis=1)
+    moment = np.stack([0.0 * x, 0.0 * x, -torque], axis=1)
+    gross = float(np.abs(turned).max(initial=0.0)), float(np.abs(moment).max(initial=0.0))
+    return Wrench(frozen(turned), frozen(moment), frozen(np.zeros(3)), gross)

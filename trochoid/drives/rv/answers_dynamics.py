@@ -1,0 +1,115 @@
+"""Answers about the reactions of all bearings over a turn of the crankshafts, and the casing's vibration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from trochoid.drives.rv.numbers import number
+from trochoid.drives.rv.reactions import Forces, Reactions
+from trochoid.drives.rv.spectrum import force_lines, order_of
+from trochoid.drives.rv.stages import Stages
+from trochoid.drives.vibration import CasingVibration
+from trochoid.kinematics.types import Array
+from trochoid.results.outcome import Parts, Quantity
+
+# forces (n, m, 2) of one kind of bearing, m alike
+BEARINGS: dict[str, Callable[[Forces], Array]] = {
+    "crank_A": lambda x: x.crank[:, :, 0],
+    "crank_B": lambda x: x.crank[:, :, 1],
+    "arm": lambda x: x.arm.reshape(len(x.arm), -1, 2),
+    "main_A": lambda x: x.main[:, 0, None],
+    "main_B": lambda x: x.main[:, 1, None],
+}
+STATISTICS: dict[str, Callable[[Array], float]] = {
+    "mean": lambda a: float(a.mean()),
+    "min": lambda a: float(a.min()),
+    "max": lambda a: float(a.max()),
+}
+
+
+def reactions(s: Stages) -> Quantity:
+    """Forces in the bearings of crankshafts, discs and carrier over a turn of the crankshafts, by model."""
+    parts: dict[str, Parts] = {}
+    found = s.reactions
+    speed = s.scene.operation.input_speed / (2 * np.pi)
+    for model in ("rigid", "elastic"):
+        if getattr(found, model) is None:
+            continue
+        for name, get in BEARINGS.items():
+            line = int(force_lines(get(_forces(found, model)))[1:].argmax()) + 1
+            order = line * order_of(s.design)
+            parts[f"{name}_{model}"] = {
+                **{
+                    key: _number(s, _of(model, get, statistic), "N", model)
+                    for key, statistic in STATISTICS.items()
+                },
+                "largest_line": _number(s, _line(model, get, line), "N", model),
+                **({} if model == "rigid" else {"change_max": _number(s, _change(get), "N", model)}),
+                "largest_line_order": Quantity(order, "", None, "exact"),
+                "largest_line_frequency": Quantity(order * speed, "Hz", None, "exact"),
+            }
+    note = "over all bearings of a kind, A at the lower z; lines in the carrier's frame, orders of the input speed"
+    return Quantity(parts=parts, note=f"{note}; {found.reason}")
+
+
+def _forces(found: Reactions, model: str) -> Forces:
+    """Return the forces of a model; rigid ones where a coarser mesh finds the drive free."""
+    forces: Forces | None = getattr(found, model)
+    return found.rigid if forces is None else forces
+
+
+def _of(
+    model: str, get: Callable[[Forces], Array], statistic: Callable[[Array], float]
+) -> Callable[[Reactions], float]:
+    return lambda found: statistic(np.linalg.norm(get(_forces(found, model)), axis=-1))
+
+
+def _change(get: Callable[[Forces], Array]) -> Callable[[Reactions], float]:
+    """Return the largest vector difference of elastic and rigid forces."""
+
+    def change(found: Reactions) -> float:
+        return float(np.linalg.norm(get(_forces(found, "elastic")) - get(found.rigid), axis=-1).max())
+
+    return change
+
+
+def _line(model: str, get: Callable[[Forces], Array], line: int) -> Callable[[Reactions], float]:
+    def amplitude(found: Reactions) -> float:
+        lines = force_lines(get(_forces(found, model)))
+        return float(lines[line]) if line < len(lines) else 0.0
+
+    return amplitude
+
+
+def _number(s: Stages, get: Callable[[Reactions], float], unit: str, model: str) -> Quantity:
+    return number(s, get(s.reactions), s.reaction_levels.map(get), unit, model)
+
+
+def vibration_velocity(s: Stages) -> Quantity:
+    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; the rigid load's worst one beside it."""
+    found = s.vibration
+    model = "rigid" if s.reactions.response is None else "elastic"
+    parts: dict[str, Parts] = {}
+    for i, point in enumerate(found.elastic.points):
+        parts[point.name] = {
+            **{axis: _velocity(s, model, i, j) for j, axis in enumerate("xyz")},
+            "worst": _velocity(s, model, i, None),
+            "worst_rigid": _velocity(s, "rigid", i, None, rigid=True),
+        }
+    return Quantity(parts=parts, note=f"lines up to {found.elastic.resolved_to:.0f} Hz are resolved")
+
+
+def _velocity(s: Stages, model: str, point: int, axis: int | None, rigid: bool = False) -> Quantity:
+    def get(found: CasingVibration) -> float:
+        rms = (found.rigid if rigid else found.elastic).rms[point]
+        return 1e3 * float(rms.max() if axis is None else rms[axis])
+
+    return number(s, get(s.vibration), s.vibration_levels.map(get), "mm/s", model)
+
+
+def vibration_zone(s: Stages) -> Quantity:
+    """Zone by the standard that applies, or the statement that none does."""
+    zone = s.vibration.zone
+    return Quantity(zone.letter or "none applies", "", None, zone.standard, note=zone.reason)
