@@ -1,8 +1,8 @@
 """Stiffness-aware motion of members that are carried round: seen from a frame that turns evenly about z.
 
-A planet carrier is where planets, cranks and discs repeat their motion, so it is the frame in which their elastic motion
-w is periodic and their stiffness K(φ) known.  It turns with Ω, and a mass that moves in it has the acceleration
-ẅ + 2Ω ẑ × ẇ − Ω² w.  What that adds to ẅ is put into the motion that `elastic.respond` is given, until both agree.
+A planet carrier is where planets, cranks and discs repeat their motion, so in its frame their elastic motion w is
+periodic and their stiffness K(φ) known.  It turns with Ω, and a mass that moves in it has the acceleration
+ẅ + 2Ω ẑ × ẇ − Ω² w.  What that adds to ẅ goes into the motion that `elastic.respond` is given: a linear problem for w.
 Left out is Ω² times the mean of w, a load that stands still and is as small as the mean is to the radii.
 """
 
@@ -14,12 +14,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from trochoid.dynamics.elastic import Response, respond
-from trochoid.dynamics.spectrum import harmonics, synthesize
+from trochoid.dynamics.spectrum import harmonics, highest_harmonic, synthesize
 from trochoid.dynamics.wrench import Wrench, couple, total, wrench
 from trochoid.kinematics.errors import NotConverged, TrochoidError
 from trochoid.kinematics.types import Array, ComplexArray, frozen
 
-ROUNDS, SETTLED = 40, 1e-11  # of the motion
+STEPS, TIGHT, SETTLED = 60, 1e-12, 1e-8  # of the iteration; of the motion: sought, and accepted
 ACROSS = np.array([[0.0, -1.0], [1.0, 0.0]])  # ẑ × of x, y
 
 
@@ -64,54 +64,78 @@ def respond_carried(
     """Return the response to a quasi-static `motion` (n, k), periodic with the angular `speed` in the frame, rad/s.
 
     The frame turns with `frame_speed` (rad/s, either sign); stiffness and damping as in `respond`.  Raises for a
-    coordinate without mass; NotConverged where the turning of the frame matters too much to be found by repetition.
+    coordinate without mass; NotConverged where no motion is found.
     """
     mass = mass_matrix(masses)
     if np.linalg.eigvalsh(mass)[0] <= 0.0:
         raise TrochoidError("carried members: every coordinate needs a mass or a moment of inertia")
-    still = harmonics(motion)[1:]
-    order: Array = speed * np.arange(1.0, len(still) + 1.0)[:, None]
+    order: Array = speed * np.arange(1.0, highest_harmonic(len(motion)) + 1.0)[:, None]
     carry = _carry(masses, mass, order, frame_speed)
-    effective, moved = still, still
-    for _ in range(ROUNDS):
-        given = synthesize(np.concatenate([harmonics(motion)[:1], effective]), len(motion))
-        response = respond(given, mass, stiffness, speed, damping_ratio)
-        last, moved = moved, still + harmonics(response.correction)[1:]
-        if frame_speed == 0.0 or np.abs(moved - last).max() <= SETTLED * np.abs(moved).max():
-            return _gathered(motion, masses, response, moved, order, frame_speed)
-        effective = still + carry(moved)
-    raise NotConverged(
-        f"reactions: the frame turns with {frame_speed:.4g} rad/s, so fast that the elastic motion in it was not found; "
-        "lower operation.input_speed or raise operation.damping_ratio"
-    )
+
+    def answer(given: Array) -> Response:
+        return respond(given, mass, stiffness, speed, damping_ratio)
+
+    plain = answer(motion)
+    if frame_speed == 0.0:
+        return _gathered(motion, masses, plain, order, frame_speed)
+    whole = _solved(motion + plain.correction, lambda w: answer(carry(w)).correction)
+    found = answer(motion + carry(whole))
+    left = np.abs(motion + found.correction - whole).max()
+    if not left <= SETTLED * np.abs(whole).max():
+        raise NotConverged(
+            f"reactions: the frame turns with {frame_speed:.4g} rad/s, and the elastic motion in it was not found; "
+            "lower operation.input_speed or raise operation.damping_ratio"
+        )
+    return _gathered(motion, masses, found, order, frame_speed)
 
 
-def _carry(
-    masses: Sequence[Mass], mass: Array, order: Array, speed: float
-) -> Callable[[ComplexArray], ComplexArray]:
-    """Return what turning adds to the lines (nh, k) of a motion, as a motion of the same inertia."""
+def _solved(first: Array, added: Callable[[Array], Array]) -> Array:
+    """Solve w = first + added(w) for records (n, k), `added` being linear."""
+    from scipy.sparse.linalg import LinearOperator, gmres
+
+    scale = float(np.abs(first).max(initial=0.0))
+    if scale == 0.0:
+        return first
+
+    def moved(flat: Array) -> Array:
+        return np.asarray(flat - added(flat.reshape(first.shape)).ravel())
+
+    operator = LinearOperator((first.size, first.size), matvec=moved, dtype=np.float64)
+    found, _ = gmres(operator, first.ravel() / scale, rtol=TIGHT, restart=STEPS, maxiter=1)
+    return np.asarray(scale * found.reshape(first.shape))
+
+
+def _carry(masses: Sequence[Mass], mass: Array, order: Array, speed: float) -> Callable[[Array], Array]:
+    """Return what turning adds to a motion (n, k), as a motion of the same inertia."""
     coriolis = np.linalg.solve(mass, np.sum([m.mass * m.moves.T @ ACROSS @ m.moves for m in masses], axis=0))
     central = np.linalg.solve(mass, np.sum([m.mass * m.moves.T @ m.moves for m in masses], axis=0))
 
-    def added(lines: ComplexArray) -> ComplexArray:
+    def added(motion: Array) -> Array:
+        lines = harmonics(motion)[1:]
         acceleration = 2.0j * speed * order * (lines @ coriolis.T) - speed**2 * (lines @ central.T)
-        return np.asarray(-acceleration / order**2, dtype=np.complex128)
+        return _series(-acceleration / order**2, len(motion))
 
     return added
 
 
+def _series(lines: ComplexArray, positions: int) -> Array:
+    """Return the record (positions, k) without a mean of lines (nh, k)."""
+    return synthesize(np.concatenate([np.zeros_like(lines[:1]), lines]), positions)
+
+
 def _gathered(
-    motion: Array, masses: Sequence[Mass], response: Response, moved: ComplexArray, order: Array, speed: float
+    motion: Array, masses: Sequence[Mass], response: Response, order: Array, speed: float
 ) -> Carried:
-    """Gather the true motion, its acceleration in the fixed frame and what inertia makes of it."""
-    count, nothing = len(motion), np.zeros_like(moved[:1])
-    bent = synthesize(np.concatenate([nothing, -(order**2) * moved]), count)
-    velocity = synthesize(np.concatenate([nothing, 1.0j * order * moved]), count)
-    swing = synthesize(np.concatenate([nothing, moved]), count)
+    """Gather the true motion, its acceleration in the frame and what inertia makes of it."""
+    count, moved = len(motion), harmonics(motion + response.correction)[1:]
+    bent, velocity = _series(-(order**2) * moved, count), _series(1.0j * order * moved, count)
+    swing = _series(moved, count)
     forces, moments = [], []
     inertia = np.zeros_like(motion)
     for m in masses:
-        fixed = bent @ m.moves.T + 2.0 * speed * velocity @ m.moves.T @ ACROSS.T - speed**2 * swing @ m.moves.T
+        fixed = (
+            bent @ m.moves.T + 2.0 * speed * velocity @ m.moves.T @ ACROSS.T - speed**2 * swing @ m.moves.T
+        )
         forces.append(-m.mass * fixed)
         moments.append(-m.inertia * (bent @ m.turns))
         inertia += forces[-1] @ m.moves + moments[-1][:, None] * m.turns
@@ -136,7 +160,7 @@ def inertia_wrench(masses: Sequence[Mass], found: Carried) -> Wrench:
 
 
 def to_fixed(load: Wrench, angle: Array, repeats: int, step: float) -> Wrench:
-    """Return a load (n, 3) of the frame in fixed axes over `repeats` periods, (repeats·n, 3), about the same point on z.
+    """Return a load (n, 3) of the frame in fixed axes over `repeats` periods, (repeats·n, 3), about the same point.
 
     `angle` (n,) of the frame in rad over one period, after which it has turned by `step`.
     """

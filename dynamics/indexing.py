@@ -2,7 +2,8 @@
 
 The pin prescribes an angle ψ(t), the wheel lags behind by d, its load behind the wheel by e (a shaft's twist):
 
-    J1 θ1'' = s N(s d) + β s² N' d' − (k e + β k e'),   J2 θ2'' = k e + β k e' − M_f sign θ2',   θ1 = ψ − d, θ2 = θ1 − e,
+    J1 θ1'' = s N(s d) + β s² N' d' − (k e + β k e'),   J2 θ2'' = k e + β k e' − M_f sign θ2',
+    θ1 = ψ − d,   θ2 = θ1 − e,
 
 s(t) the sine of the angle from the wheel's axis to the pin, N(u) the contact.  In the dwell ψ rests and a lock with a
 constant stiffness takes the place of the contact.  The fourth-order method of Runge and Kutta with steps that are a
@@ -120,7 +121,7 @@ def _course(march: March, at: tuple[Array, Array, Array], h: float, states: Arra
     rows = zip(states.tolist(), lever.tolist(), strict=True)
     torque = np.array([march.torque(y[0], y[1], s) for y, s in rows])
     d, p, e, g = states[:, :4].T
-    return Course(h * np.arange(n), d, p, e, g, torque, base, _missing(march.output, states, base))
+    return Course(np.arange(n) * h, d, p, e, g, torque, base, _missing(march.output, states, base))
 
 
 def _missing(output: Output, states: Array, base: Array) -> float:

@@ -32,7 +32,8 @@ class PinLaw:
     @property
     def stiffest(self) -> float:
         """Largest slope dN/du in the table, N·m/rad."""
-        return float(self.slope(self.top * (np.arange(1, CELLS + 1) / CELLS) ** 2).max())
+        place = np.arange(1, CELLS + 1) / CELLS
+        return float(self.slope(self.top * place**2).max())
 
     def moment(self, pressed: Array) -> Array:
         """Return N (n,) where the pin is pressed by u − play (n,), 0 to `top`."""

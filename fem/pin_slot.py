@@ -41,7 +41,8 @@ class Pin:
     """A pin of `radius` at the `distance` from O in a wall of `thickness` about it, held `overhang` before the wall.
 
     Lengths in m.  It is held at its end nearer to O.  A cone has its apex in O, in a slot of rays; a cylinder is in a
-    slot of parallel planes; a barrel has the `crown` radius along its axis.  `depth`: below the wall's face, m.  With `bends` false the contact is all there is.
+    slot of parallel planes; a barrel has the `crown` radius along its axis.  `depth`: below the wall's face, m.
+    With `bends` false the contact is all there is.
     """
 
     shape: Shape
@@ -102,7 +103,7 @@ def flexibility(pin: Pin, places: Array) -> Array:
     at = places - pin.root
     K = shaft(steps, [*(-at), 0.0, *at], pin.material).bending
     n = len(at)
-    found: Array = np.linalg.inv(K[n + 1 :, n + 1 :] + K[n + 1 :, :n])
+    found = np.linalg.inv(K[n + 1 :, n + 1 :] + K[n + 1 :, :n])
     return 0.5 * (found + found.T) * (1.0 if pin.bends else RIGID)
 
 

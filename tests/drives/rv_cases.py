@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from trochoid.drives.rv.bodies import Level, build_level, meshes
 from trochoid.drives.rv.design import Design, design
 from trochoid.drives.rv.series import Series, solve_series, turn_angles
 from trochoid.results import Quantity
+from trochoid.run import Run
 from trochoid.scene import load
 from trochoid.scene.drive_rv import RvScene
 from trochoid.scene.needs import EFFECTS_OF
@@ -45,6 +47,13 @@ def scene(*overrides: str, effects: Sequence[str] = EFFECTS_OF["rv"]) -> RvScene
 def drive(*overrides: str, effects: Sequence[str] = EFFECTS_OF["rv"]) -> Design:
     """Return the example's drive with other values."""
     return design(scene(*overrides, effects=effects))
+
+
+@lru_cache(maxsize=1)
+def whole() -> Run:
+    """Return a run of the example on a coarse mesh with few positions, asked for everything; its stages are kept."""
+    few = ("accuracy.facets_per_lobe=6", "ask.positions=2", "accuracy.model=level0")
+    return Run(scene(*few, "ask.stress_position=200"))
 
 
 _LEVELS: dict[Hashable, Level] = {}

@@ -95,7 +95,7 @@ def test_forces_on_the_casing_are_the_inertia_of_the_members(
 
 @pytest.mark.independent
 def test_crank_bearings_by_statics_are_the_springs_of_the_contact_solution() -> None:
-    """Forces by the deflection of springs and by the balance of each crankshaft agree, at a speed that hardly matters."""
+    """Forces by the deflection of springs and by the balance of each crankshaft agree, at a low speed."""
     made, series = solved("operation.input_speed=1")
     at = reactions(made, series, masses(made), 0.02)
     ramp = np.abs(series.arm.resultant[-1] - series.arm.resultant[0]).max()
@@ -162,7 +162,7 @@ def test_lines_of_a_force_are_its_half_axes() -> None:
     """A vector that runs round an ellipse twice a turn: the larger half axis, whichever way it lies."""
     turn: Array = 2 * np.pi * np.arange(16) / 16
     ellipse = np.stack([3 * np.cos(2 * turn), 1 * np.sin(2 * turn)], axis=-1) @ [[0.6, 0.8], [-0.8, 0.6]]
-    lines = force_lines((ellipse + [5.0, 12.0])[:, None])
+    lines = force_lines((ellipse + np.array([5.0, 12.0]))[:, None])
     assert lines[:4] == pytest.approx([13.0, 0.0, 3.0, 0.0], abs=1e-12)
 
 

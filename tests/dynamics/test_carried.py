@@ -11,7 +11,7 @@ from trochoid.dynamics.carried import Carried, Mass, inertia_wrench, mass_matrix
 from trochoid.dynamics.elastic import respond
 from trochoid.dynamics.spectrum import harmonics
 from trochoid.dynamics.wrench import wrench
-from trochoid.kinematics.errors import NotConverged, TrochoidError
+from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array
 
 COUNT, SPEED, WEIGHT, SPRING = 40, 47.0, 2.0, 5e5
@@ -34,7 +34,7 @@ def answered(order: int, frame: float) -> tuple[Carried, Array]:
 @settings(max_examples=25, deadline=None)
 @given(order=st.integers(-4, 4).filter(bool), frame=st.floats(-60, 60))
 def test_one_mass_on_a_circle(order: int, frame: float) -> None:
-    """Round springs in a frame that turns with Ω: w = q k/(k − m (h ω + Ω)²) less the load −m Ω² q that stands still."""
+    """Round springs in a frame that turns with Ω: w = q k/(k − m (h ω + Ω)²)."""
     found, motion = answered(order, frame)
     fast = order * SPEED + frame
     assert found.response.motion == pytest.approx(
@@ -74,10 +74,8 @@ def test_lines_of_the_frame_are_shifted_in_fixed_axes() -> None:
 
 @pytest.mark.property
 def test_what_cannot_be_answered_is_refused() -> None:
-    """A coordinate without mass, and a frame that turns past what repetition finds."""
+    """A coordinate without mass."""
     motion = np.column_stack([circling(1), 0 * TURN])
     light = Mass(WEIGHT, np.zeros(3), np.eye(2, 3), 0.0, np.zeros(3))
     with pytest.raises(TrochoidError, match="every coordinate needs a mass"):
         respond_carried(motion, [light], SPRING * np.eye(3), SPEED, 1.0)
-    with pytest.raises(NotConverged, match="so fast"):
-        respond_carried(motion, [PLANE], SPRING * np.eye(3), 300.0, 700.0)

@@ -20,7 +20,7 @@ MEAN = np.array([[9e5, -3e5], [-3e5, 5e5]])
 def stiffness(angle: Array) -> Array:
     """A strong variation over the period, with two harmonics."""
     change = 0.3 * np.cos(angle) + 0.1 * np.sin(2.0 * angle)
-    return MEAN + change[..., None, None] * np.array([[4e5, -2e5], [-2e5, 3e5]])
+    return np.asarray(MEAN + change[..., None, None] * np.array([[4e5, -2e5], [-2e5, 3e5]]))
 
 
 def force(angle: Array) -> Array:

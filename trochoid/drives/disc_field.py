@@ -51,13 +51,11 @@ def disc_state(body: Body, presses: Sequence[Press], pose: Pose, angle: float) -
     x, y, spin = pose.motion
     rigid = np.array([x, y]) + spin * np.stack([-offset[:, 1], offset[:, 0]], axis=-1)
     placed = np.column_stack([points, np.full(len(points), pose.z)])
-    return DiscState(
-        angle, field, frozen(placed), frozen(field.displacement @ turned.T + rigid), pose.turn
-    )
+    return DiscState(angle, field, frozen(placed), frozen(field.displacement @ turned.T + rigid), pose.turn)
 
 
 def disc_field(name: str, state: DiscState, turn: float) -> Field:
-    """Return a disc's displacement and stress at its axial place; `turn` (rad) of the contacts' frame in the fixed one."""
+    """Return a disc's displacement and stress at its axial place; `turn` (rad) of the contacts' frame."""
     points = np.column_stack([turned(state.points[:, :2], turn), state.points[:, 2]])
     data = {
         "displacement": frozen(turned(state.displacement, turn)),

@@ -9,7 +9,7 @@ import numpy as np
 from trochoid.drives.indexer.pin import Pair, lash
 from trochoid.drives.indexer.shaken import lock_of
 from trochoid.drives.indexer.stages import Stages
-from trochoid.fem.pin_slot import Pressed, press
+from trochoid.fem.pin_slot import Pressed
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Parts, Quantity
 
@@ -50,8 +50,9 @@ def contact_pressure_max(s: Stages) -> Quantity:
         if force == 0.0:
             rows[name] = Quantity(0.0, "MPa", 0.0, "exact", note=UNLOADED)
             continue
-        pressed = press(pair.pin, pair.law.pressed(np.array([force * pair.pin.distance])))
-        rows[name] = pressure_parts(pair, pressed) | {"at": Quantity(math.degrees(at), "deg", None, "rigid")}
+        rows[name] = pressure_parts(pair, pair.at_largest) | {
+            "at": Quantity(math.degrees(at), "deg", None, "rigid")
+        }
     note = (
         "Hertz's half-spaces, no finite elements: error not known"
         if s.scene.drive.pin.shape == "barrel"

@@ -8,8 +8,9 @@ import numpy as np
 
 from trochoid.drives.indexer.answers_contact import pressure_parts
 from trochoid.drives.indexer.design import INDEXER
-from trochoid.drives.indexer.shaken import SAME_TIME, Shaken
+from trochoid.drives.indexer.shaken import Shaken
 from trochoid.drives.indexer.stages import Stages
+from trochoid.drives.indexer.words import SAME_TIME
 from trochoid.results.outcome import Parts, Quantity
 
 MODEL = "marched"
@@ -55,14 +56,14 @@ def residual_vibration(s: Stages) -> Quantity:
     rows: dict[str, Parts | Quantity] = {name: _residual(s, x) for name, x in s.shaken.items()}
     if SAME_TIME in s.shaken:
         ours, theirs = (s.shaken[x] for x in (INDEXER, SAME_TIME))
-        if ours.amplitude[0] > 0.0:
+        if ours.amplitude[0] > 0.0 < theirs.amplitude[0]:
             rows["geneva_over_indexer_in_same_time"] = {
                 "amplitude": Quantity(theirs.amplitude[0] / ours.amplitude[0], "", None, MODEL)
             }
     return Quantity(
         parts=rows,
-        note="about the rigid drive's rest; friction of the output brakes it; settled: within 5 % of the amplitude of "
-        "where it ends; errors are those of the steps",
+        note="about where friction holds the output in the end, held_off_by_friction from the rigid drive's rest; "
+        "settled: within 5 % of the amplitude; errors are those of the steps",
     )
 
 

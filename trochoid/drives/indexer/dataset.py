@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from trochoid.drives.indexer.forces import State
 
 MOTION, PIN, FORCES = "Motion of the wheel over a turn of the arm", "Pin and slot", "Forces over an index"
+CONTACT = "Pin and slot as elastic bodies"
 CAPTIONS = {
     MOTION: (
         "0° is the middle of the index; the wheel rests at both sides of it. Where ε jumps is the soft shock. "
@@ -29,6 +30,10 @@ CAPTIONS = {
         "N is the power that a unit moment of inertia takes."
     ),
     PIN: "Where the pin is on the wheel, and the angle between its path and the normal of the slot in an index.",
+    CONTACT: (
+        "Under the forces of the rigid drive. Where the pin force passes through 0 the contact has no width, and is "
+        "softest."
+    ),
     FORCES: "Rigid, pin without friction in its slot; negative where the pin pushes against the sense of growing ψ.",
 }
 STEP = 1e-9  # rad, by which the ends of an index are shown from either side
@@ -45,6 +50,8 @@ def dataset(stages: Stages, wanted: Collection[str]) -> xarray.Dataset:
         entries |= _pins(stages, angle)
     if "forces" in wanted:
         entries |= _forces(stages, angle)
+    if "contact" in wanted:
+        entries |= _contacts(stages, angle)
     names = tuple(SHOWN[name] for name in made.mechanisms)
     places = {
         ANGLE: entry((ANGLE,), angle, "rad", "input angle from the middle of the index"),
@@ -125,6 +132,31 @@ def _forces(stages: Stages, angle: Array) -> Entries:
         "input_torque": entry(dims, series("input_torque"), "N*m", "input torque", FORCES),
         "tooth_force": entry(dims, series("tooth"), "N", "tooth force of the planet", FORCES),
         "input_power": entry(dims, series("power"), "W", "input power"),
+    }
+
+
+def _contacts(stages: Stages, angle: Array) -> Entries:
+    rows = []
+    for pair in stages.pairs.values():
+        inside = within(pair.forces.indexer, angle)
+        found = pair.state(angle[inside])
+        held = np.full((4, len(angle)), np.nan)
+        pressed = found.pressed
+        held[:, inside] = (
+            found.stiffness,
+            found.lag,
+            pressed.pressure.max(axis=-1),
+            pressed.half_width.max(axis=-1),
+        )
+        held[0] = np.where(held[0] > 0.0, held[0], np.nan)  # no load, no stiffness
+        rows.append(held)
+    stiffness, lag, pressure, width = np.array(rows).transpose(1, 2, 0)
+    dims, said = (ANGLE, "mechanism"), {"caption": CAPTIONS[CONTACT]}
+    return {
+        "contact_pressure": entry(dims, pressure, "Pa", "largest pressure of pin and slot", CONTACT, **said),
+        "contact_half_width": entry(dims, width, "m", "half width of the contact", CONTACT),
+        "mesh_stiffness": entry(dims, stiffness, "N*m/rad", "stiffness about the wheel's axis", CONTACT),
+        "wheel_lag": entry(dims, lag, "rad", "lag of the wheel", CONTACT),
     }
 
 

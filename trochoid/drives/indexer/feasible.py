@@ -14,6 +14,18 @@ def faults(design: Design, slot: Slot) -> tuple[str, ...]:
     return _shell(design) + _hub(design, slot) + _walls(design, slot) + _length(design, slot)
 
 
+def pin_faults(design: Design) -> tuple[str, ...]:
+    """Return why the pin cannot be held as the scene says; empty when it can."""
+    d = design.drive
+    most = d.sphere_radius - 0.5 * d.wheel.thickness
+    if d.pin.overhang < most:
+        return ()
+    return (
+        f"pin.overhang = {_mm(d.pin.overhang)}: the pin would be held beyond the centre of the sphere; "
+        f"it must be less than sphere_radius - wheel.thickness/2 = {_mm(most)}",
+    )
+
+
 def slot_length(design: Design, slot: Slot) -> float:
     """Length (m, on the sphere) from the rim to the bottom of the slot that the pin needs."""
     d = design.drive

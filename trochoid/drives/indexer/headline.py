@@ -11,6 +11,14 @@ from trochoid.results.outcome import Quantity
 from trochoid.scene.drive_indexer import IndexerScene
 
 ABSENT_EFFECTS = {
+    "elastic_contact": (
+        "Pin and slot are rigid: the soft shock is a jump of the acceleration, where a real wheel swings; there is no "
+        "contact pressure, no stiffness and no residual vibration after the stop."
+    ),
+    "clearance": (
+        "The pin fits its slot without play: where the acceleration changes its sign a real pin goes over to the "
+        "other side of the slot with a knock."
+    ),
     "inertia": (
         "The wheel has no mass in the equations: pin force and reactions are those of a drive that creeps against "
         "the friction torque."
@@ -18,13 +26,9 @@ ABSENT_EFFECTS = {
 }
 
 NEVER_SIMULATED = {
-    "elasticity": (
-        "Pin, slot, teeth and shafts are rigid: the soft shock is a jump of the acceleration, where a real wheel "
-        "swings; there is no contact pressure and no residual vibration after the stop."
-    ),
-    "clearance": (
-        "The pin fits its slot without play: where the acceleration changes its sign a real pin goes over to the "
-        "other side of the slot with a knock."
+    "elasticity of teeth, arm and planet": (
+        "The pin is held rigidly in its planet, and moves as the rigid train does: what is in front of it adds to the "
+        "lag, and lowers the natural frequencies."
     ),
     "mass of arm and planet": (
         "Arm, planet and pin have no mass: their centrifugal forces add to the reactions, and the input torque is "

@@ -12,10 +12,14 @@ from trochoid.drives.indexer import headline
 from trochoid.drives.indexer.design import SHOWN
 from trochoid.drives.indexer.plan import WHY
 from trochoid.drives.indexer.stages import Stages
+from trochoid.drives.indexer.words import NAMES
 from trochoid.kinematics.indexer import motion
 from trochoid.results.outcome import Check, Outcome, Quantity, Stage
 
 EXACT = 1e-9
+MARCHED = 1e-3
+WIDE = 0.2  # of the pin's radius, half width of a contact up to which it is Hertz's
+LEFT = 0.01  # of the amplitude, left when the next index starts
 
 
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
@@ -64,6 +68,16 @@ def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
             _check(f"power in = power out + kinetic, {SHOWN[name]}", forces.residual())
             for name, forces in stages.forces.items()
         ]
+    if "vibration" in ran:
+        found += [
+            Check(
+                f"work of the pin = energy and losses, {NAMES[name]}",
+                x.balance,
+                MARCHED,
+                x.balance <= MARCHED,
+            )
+            for name, x in stages.shaken.items()
+        ]
     return tuple(found)
 
 
@@ -80,6 +94,8 @@ def warnings(stages: Stages, ran: tuple[str, ...]) -> tuple[str, ...]:
             f"{turns:.4g} swings make a turn of the wheel: it can index on and on in one sense only if a whole "
             f"number does, as with swing_angle = {360.0 / max(1, round(turns)):.7g}"
         )
+    if "contact" in ran:
+        said += _elastic_warnings(stages, ran)
     if "geometry" not in ran:
         return tuple(said)
     travel, within = stages.slots["indexer"], made.drive.dwell_tolerance
@@ -96,3 +112,31 @@ def warnings(stages: Stages, ran: tuple[str, ...]) -> tuple[str, ...]:
             )
         )
     return tuple(said)
+
+
+def _elastic_warnings(stages: Stages, ran: tuple[str, ...]) -> list[str]:
+    """Say where contact and vibration are beyond what they are made for."""
+    said = []
+    for name, pair in stages.pairs.items():
+        if pair.largest[0] == 0.0:
+            continue
+        pressed = pair.at_largest
+        wide, along = float(pressed.half_width.max()), float(pressed.along.max())
+        if wide > WIDE * pair.pin.radius:
+            said.append(
+                f"{NAMES[name]}: the contact's half width of {1e3 * wide:.3g} mm is no small part of pin_radius = "
+                f"{1e3 * pair.pin.radius:.4g} mm: pressure and stiffness are Hertz's, for narrow contacts"
+            )
+        if along > 0.5 * pair.pin.thickness:
+            said.append(
+                f"{NAMES[name]}: the contact would be {2e3 * along:.3g} mm long on a wheel of "
+                f"{1e3 * pair.pin.thickness:.4g} mm; it presses at its ends: take a smaller pin.crown_radius"
+            )
+    if "vibration" in ran:
+        said += [
+            f"{NAMES[name]}: {100.0 * x.left:.2g} % of the residual vibration are left when the next index starts; "
+            "each index is computed from rest"
+            for name, x in stages.shaken.items()
+            if x.left > LEFT
+        ]
+    return said

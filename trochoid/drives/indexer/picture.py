@@ -24,6 +24,10 @@ SPACE = tuple(Axis(name, "m") for name in "xyz")
 def plots(stages: Stages, ran: Collection[str]) -> tuple[Plot, ...]:
     """Return the pictures of what has been computed."""
     found = [in_space(stages.design, stages.slots["indexer"])] if "geometry" in ran else []
+    if "vibration" in ran:
+        from trochoid.drives.indexer.picture_shaken import courses
+
+        found += courses(stages.shaken)
     return (*found, *laws(stages.design), family(stages.design))
 
 

@@ -42,20 +42,8 @@ def pin_of(scene: IndexerScene, design: Design, slot: Slot) -> Pin:
     )
 
 
-def pin_faults(design: Design) -> tuple[str, ...]:
-    """Return why the pin cannot be held as the scene says; empty when it can."""
-    drive = design.drive
-    most = drive.sphere_radius - 0.5 * drive.wheel.thickness
-    if drive.pin.overhang < most:
-        return ()
-    return (
-        f"pin.overhang = {1e3 * drive.pin.overhang:.6g} mm: the pin would be held beyond the centre of the sphere; "
-        f"it must be less than sphere_radius - wheel.thickness/2 = {1e3 * most:.6g} mm",
-    )
-
-
 def law_of(pin: Pin, largest: float, play: float) -> PinLaw:
-    """Tabulate the law of a pin up to `RESERVE` times the moment `largest` (N·m); `play` is half that of the slot, m."""
+    """Tabulate the law of a pin up to `RESERVE` times the moment `largest` (N·m); `play`: half the slot's, m."""
     tries = np.geomspace(1e-9, 1.0, 91)
     reached = press(pin, tries).moment
     i = int(np.searchsorted(reached, RESERVE * largest))
@@ -106,7 +94,7 @@ class Pair:
     @cached_property
     def share(self) -> float:
         """Part of the deflection at the largest force that is the contact's, the rest is bending of the pin."""
-        here = self._here
+        here = self.at_largest
         found = press(replace(self.pin, bends=False), self._pressing * np.linspace(0.02, 1.0, 99))
         return float(here.slope[0] / np.interp(here.moment[0], found.moment, found.slope))
 
@@ -116,14 +104,17 @@ class Pair:
         if self.pin.shape == "barrel":
             return None
         others = [replace(self.pin, depth=x * self.pin.depth) for x in (0.5, 2.0)]
-        return float(max(abs(press(x, self._pressing).slope[0] / self._here.slope[0] - 1.0) for x in others))
+        return float(
+            max(abs(press(x, self._pressing).slope[0] / self.at_largest.slope[0] - 1.0) for x in others)
+        )
 
     @property
     def _pressing(self) -> Array:
         return self.law.pressed(np.array([self.largest[0] * self.pin.distance]))
 
-    @property
-    def _here(self) -> Pressed:
+    @cached_property
+    def at_largest(self) -> Pressed:
+        """Pin and wall under the largest force of the rigid drive."""
         return press(self.pin, self._pressing)
 
 

@@ -9,9 +9,10 @@ from functools import cached_property
 
 import numpy as np
 
-from trochoid.drives.indexer.design import GENEVA, INDEXER, SHOWN
+from trochoid.drives.indexer.design import GENEVA, INDEXER
 from trochoid.drives.indexer.pin import Pair
 from trochoid.drives.indexer.wheel import WheelMass
+from trochoid.drives.indexer.words import SAME_TIME
 from trochoid.dynamics.indexing import STEPS, Index, Response, respond
 from trochoid.dynamics.indexing_march import Output
 from trochoid.dynamics.pin_law import PinLaw
@@ -21,8 +22,7 @@ from trochoid.kinematics.indexer import Indexer, motion
 from trochoid.kinematics.types import Array
 from trochoid.scene.drive_indexer import IndexerScene
 
-SAME_TIME = "geneva_wheel_in_same_time"
-NAMES = SHOWN | {SAME_TIME: "Geneva wheel in the same time"}
+NOTHING = 1e-9  # of the largest lag in the index, below which an amplitude is rounding
 SETTLED = 0.05  # of its amplitude, below which a vibration has settled
 LARGER = 4.0  # times, by which the table of the law grows when a response leaves it
 TRIES = 6
@@ -73,7 +73,7 @@ class Shaken:
 
     @property
     def at_entry(self) -> float:
-        """Largest pin force in the first natural period over that with which the rigid drive starts; nan without one."""
+        """Largest pin force in the first natural period over that of the rigid drive's start; nan without one."""
         first = self.fine.index.time <= 2.0 * math.pi / self.output.frequencies[0]
         start = abs(float(self.rigid[0]))
         return (
@@ -89,29 +89,30 @@ class Shaken:
 
     @property
     def amplitude(self) -> tuple[float, float]:
-        """Largest deviation of the output after the stop (rad), and its error by the length of the steps."""
-        one, two = (float(np.abs(x.dwell.deviation).max()) for x in (self.fine, self.coarse))
-        return one, abs(one - two)
+        """Largest way (rad) of the output after the stop from where it ends, and its error by the steps."""
+        one, two = (float(np.abs(x.dwell.deviation - _held_off(x)).max()) for x in (self.fine, self.coarse))
+        scale = float(np.abs(self.fine.index.deviation).max())
+        return (one if one > NOTHING * scale else 0.0), abs(one - two)
 
     @property
     def settling(self) -> float:
         """Time (s) after the stop from which the output stays within a part of its amplitude of where it ends."""
         dwell = self.fine.dwell
         away = np.abs(dwell.deviation - self.offset)
-        outside = np.flatnonzero(away > SETTLED * self.amplitude[0])
+        outside = np.flatnonzero(away > SETTLED * self.amplitude[0]) if self.amplitude[0] > 0.0 else away[:0]
         return float(dwell.time[outside[-1]]) if outside.size else 0.0
 
     @property
     def offset(self) -> float:
         """Where friction holds the output in the end (rad), 0 where it still swings."""
-        return float(self.fine.dwell.deviation[-1]) if self.fine.stuck else 0.0
+        return _held_off(self.fine)
 
     @property
     def left(self) -> float:
         """Part of the amplitude with which the output still swings when the next index starts."""
         dwell, period = self.fine.dwell, 2.0 * math.pi / self.output.frequencies[0]
         rest = 2.0 * (math.pi - self.pair.forces.indexer.half_turn) / self.speed
-        if dwell.time[-1] < rest - 1e-9 * rest:  # it had ended
+        if self.amplitude[0] == 0.0 or dwell.time[-1] < rest - 1e-9 * rest:  # it had ended
             return 0.0
         late = dwell.time > rest - period
         return float(np.abs(dwell.deviation[late] - self.offset).max()) / self.amplitude[0]
@@ -120,6 +121,10 @@ class Shaken:
     def balance(self) -> float:
         """Energy that is missing in index or dwell, to the work done."""
         return max(self.fine.index.balance, self.fine.dwell.balance)
+
+
+def _held_off(found: Response) -> float:
+    return float(found.dwell.deviation[-1]) if found.stuck else 0.0
 
 
 def shaken(scene: IndexerScene, wheel: WheelMass, pairs: Mapping[str, Pair]) -> Mapping[str, Shaken]:

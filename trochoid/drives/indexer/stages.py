@@ -55,12 +55,10 @@ class Stages:
         """The design, once the wheel has been found possible; raises Infeasible with every reason."""
         made, travel = self.design, self.slots
         with self.clock.stage("geometry"):
-            from trochoid.drives.indexer.feasible import faults
+            from trochoid.drives.indexer.feasible import faults, pin_faults
 
             reasons = faults(made, travel["indexer"])
             if self.scene.has("elastic_contact"):
-                from trochoid.drives.indexer.pin import pin_faults
-
                 reasons += pin_faults(made)
             if reasons:
                 raise Infeasible("\n".join(reasons))

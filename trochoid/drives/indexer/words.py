@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from trochoid.kinematics.indexer_synthesis import Fault, Solution
 
+SAME_TIME = "geneva_wheel_in_same_time"
+NAMES = {"indexer": "indexer", "geneva_wheel": "Geneva wheel", SAME_TIME: "Geneva wheel in the same time"}
+
 FAULT_WORDS: dict[Fault, str] = {
     "": "serves",
     "swing": "turns by another angle",

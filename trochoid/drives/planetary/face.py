@@ -13,7 +13,7 @@ from trochoid.fem.gear_slices import FaceLoad, Lead, solve_face
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array
 
-POSITIONS = 12  # over a base pitch
+POSITIONS = 8  # over a base pitch
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,6 +24,7 @@ from trochoid.kinematics.types import Array, frozen
 
 MAIN = ("sun", "ring", "carrier")
 SOFTER = 0.05  # times Young's modulus: the stiffness of a mesh per width
+ROUNDING = 1e-14  # of the coordinates
 SAME = 1e-6  # of the motions: how far the members may be found beside where the contacts put them
 
 
@@ -194,7 +195,8 @@ def tooth_stiffness(
         contact = solve_positions(problem, resolve=series.rung == "strips")
         arm = np.tile(reach, len(whole.names) // 3)
         apart = float(np.abs((contact.motion - motion[rows]) * arm).max())
-        if apart > SAME * max(float(np.abs(motion * arm).max()), float(np.abs(forces).max()) / linear):
+        moves = max(float(np.abs(motion * arm).max()), float(np.abs(forces).max()) / linear)
+        if apart > SAME * moves + ROUNDING * design.drive.center_distance:
             raise NotConverged(
                 f"the stiffness of the meshes was found {apart * 1e6:.3g} µm beside the members' places; take another "
                 "number of ask.positions"

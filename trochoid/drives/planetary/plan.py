@@ -79,7 +79,7 @@ def plan(scene: PlanetaryScene) -> Plan:
         "contact": 2 * positions * d.planets * POSITION[model],
         "meshes": 4 * positions * 1e-3,
         "stress": 0.5 + 3e-3 * positions * d.planets,
-        "face": 0.5,
+        "face": 0.0 if d.lead is None else 0.15 * d.lead.slices,
         "dynamics": 2 * positions * d.planets * POSITION[model],
         "reactions": 0.1,
         "modes": 0.05,

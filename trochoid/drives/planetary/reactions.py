@@ -11,7 +11,7 @@ in touch: where the force of a mesh falls below nothing, they would part, and `s
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -164,7 +164,7 @@ def _read(
         grows,
         resonance,
         _balance(teeth, size),
-        float(np.abs(((teeth + supports - inertia) / _arms(set_)) @ free).max()) / size,
+        float(np.abs((teeth + supports - inertia) @ free / _arms(set_, set_.names)).max()) / size,
         _work(set_, y, varied(set_.teeth @ free, y) + moved @ set_.springs, loss),
     )
 
@@ -199,10 +199,10 @@ def _along(series: Series, pushed: Array) -> Array:
     return np.asarray(np.linalg.solve(lines, pushed[..., None])[..., 0].transpose(0, 2, 1))
 
 
-def _arms(set_: Moving) -> Array:
-    """Return (F,) 1 m for motions that shift, a radius for those that turn: the arms of the forces on them."""
+def _arms(set_: Moving, names: Sequence[str]) -> Array:
+    """Return 1 m for motions that shift, a radius for those that turn: the arms of the forces on them."""
     reach = float(np.sqrt(set_.mass[2] / set_.mass[0]))
-    return np.where([name.endswith(".rotation") for name in set_.layout.names], reach, 1.0)
+    return np.where([name.endswith(".rotation") for name in names], reach, 1.0)
 
 
 def _balance(teeth: Array, size: float) -> float:
@@ -227,7 +227,7 @@ def _resonance(set_: Moving, modes: Modes, y: Array, added: Array, damping: floa
     """Return the harmonic to which inertia adds most, and the mode that has most of its motion's energy."""
     if len(y) < 3 or not added.any():
         return None
-    lines = np.linalg.norm(harmonics(added / _arms(set_))[1:], axis=1)
+    lines = np.linalg.norm(harmonics(added / _arms(set_, set_.layout.names))[1:], axis=1)
     i = int(np.argmax(lines))
     mass, _, _ = set_.inertia()
     answer = np.abs(harmonics(y)[i + 1] @ mass @ modes.shapes) * modes.angular_frequencies

@@ -8,14 +8,14 @@ nothing.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from trochoid.drives.planetary.design import Design
 from trochoid.drives.planetary.reactions import Reactions
 from trochoid.dynamics.casing import Casing, Mount
-from trochoid.dynamics.vibration import Point, Vibration, vibrate
+from trochoid.dynamics.vibration import Point, Vibration, positions_for, vibrate
 from trochoid.dynamics.wrench import Wrench
 from trochoid.dynamics.zones import Machine, Zone, zone
 from trochoid.kinematics.errors import TrochoidError
@@ -45,7 +45,7 @@ def casing_vibration(design: Design, turning: Speeds, found: Reactions) -> Casin
     base = found.speed / (2.0 * np.pi) / pitches
     sense = np.sign(float(turning.members["carrier"]))
     elastic, static = (
-        vibrate(casing, on_casing(force, torque[d.fixed], pitches, sense), base, points)
+        _warned(vibrate(casing, on_casing(force, torque[d.fixed], pitches, sense), base, points), pitches)
         for force, torque in ((found.force, found.torque), (found.static_force, found.static_torque))
     )
     speed = scene.operation.input_speed
@@ -58,6 +58,19 @@ def casing_vibration(design: Design, turning: Speeds, found: Reactions) -> Casin
         rigid_support=table.rigid_support,
     )
     return CasingVibration(elastic, static, zone(elastic.rms_max, machine))
+
+
+def _warned(found: Vibration, pitches: int) -> Vibration:
+    """Say how many positions over a pitch the band needs: the record is that of many pitches."""
+    top = found.band[1]
+    if found.resolved_to + found.frequencies[0] > top:
+        return found
+    need = positions_for(top, float(found.frequencies[0]) * pitches)
+    said = (
+        f"the positions resolve vibration up to {found.resolved_to:.4g} Hz of {top:.4g} Hz; {need} positions "
+        "(ask.positions) over a pitch cover the whole band"
+    )
+    return replace(found, warnings=(said, *found.warnings[1:]))
 
 
 def whole_pitches(design: Design) -> int:

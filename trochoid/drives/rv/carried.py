@@ -1,5 +1,4 @@
-"""The masses of an RV drive on the motions of its contacts: discs, crankshafts with planets, sun, and who turns with the
-twist.
+"""The masses of an RV drive on the motions of its contacts: discs, crankshafts with planets, sun, and carrier or ring.
 
 Seen from the carrier, with the sun held, the load turns the ring. Where the ring stands it is the carrier with all that
 it carries that turns back, and the planets roll on the sun while it does; so the ring's rotation has their inertia.
@@ -17,7 +16,7 @@ from trochoid.kinematics.types import Array
 
 
 def carried_masses(design: Design, motions: Layout, masses: Masses) -> tuple[Mass, ...]:
-    """Return all masses on the motions of the layout: discs, then `crank_masses` of each crankshaft, sun, carrier or ring.
+    """Return all masses on the motions: discs, then `crank_masses` of each crankshaft, sun, carrier or ring.
 
     That eccentrics and discs swing a little as the planets roll back is left out: (e/R)² of the rest.
     """

@@ -42,7 +42,7 @@ CAPTIONS = {
     TEETH: "One mesh of sun and planet over a base pitch, along the line of action.",
     REACTIONS: "Size of the force in each bearing of crankshafts and carrier, A at the lower z.",
     CHANGE: "Size of the vector difference: what the inertia of the members' elastic motion adds.",
-    REACTION_LINES: "Larger half axis of the force vector's ellipse in the carrier's frame over the order, in multiples of the input speed.",
+    REACTION_LINES: "Larger half axis of the force's ellipse in the carrier's frame, over orders of the input speed.",
     VELOCITY: "Amplitude at all lines that the casing feels, by the vector sum of all forces on it.",
     YIELDING: "Share of each part in the angle of the output per torque.",
 }
@@ -72,7 +72,9 @@ def dataset(stages: Stages, wanted: Collection[str]) -> xarray.Dataset:
         coordinates[ANGLE] = entry((ANGLE,), stages.contact.fine.angle, "rad", "input angle")
     if "reactions" in wanted:
         entries |= _reactions(stages)
-        coordinates["reaction_angle"] = entry(("reaction_angle",), stages.reactions.angle, "rad", "input angle")
+        coordinates["reaction_angle"] = entry(
+            ("reaction_angle",), stages.reactions.angle, "rad", "input angle"
+        )
         names = reaction_names(stages)
         coordinates["reaction"] = named("reaction", names, "bearing, A at the lower z")
     if "vibration" in wanted:
@@ -270,7 +272,9 @@ def _vibration(stages: Stages) -> Entries:
         "vibration_velocity": _shown(
             dims, np.abs(elastic), "m/s", "amplitude of the velocity", VELOCITY, scale="log"
         ),
-        "vibration_velocity_rigid": entry(dims, np.abs(rigid), "m/s", f"amplitude of the velocity {by_rigid}"),
+        "vibration_velocity_rigid": entry(
+            dims, np.abs(rigid), "m/s", f"amplitude of the velocity {by_rigid}"
+        ),
         "vibration_rms": entry(dims[1:], found.elastic.rms, "m/s", f"rms velocity, {band}"),
         "vibration_rms_rigid": entry(dims[1:], found.rigid.rms, "m/s", f"rms velocity {by_rigid}, {band}"),
     }

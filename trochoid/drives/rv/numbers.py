@@ -13,9 +13,7 @@ if TYPE_CHECKING:
     from trochoid.drives.rv.series import Series
 
 
-def number(
-    s: Stages, value: float, both: Pair[float], unit: str, model: str | None = None
-) -> Quantity:
+def number(s: Stages, value: float, both: Pair[float], unit: str, model: str | None = None) -> Quantity:
     """Return a number, its error from two mesh levels, and the model that gave it (the contact model unless named)."""
     error = None if both.coarse is None else scalar_error(both.fine, both.coarse, s.difference)
     return Quantity(value, unit, error, model or s.rung)

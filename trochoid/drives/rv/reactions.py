@@ -208,10 +208,7 @@ def _changed(design: Design, series: Series, loads: _Loads, found: Carried) -> _
     contact = spring @ motions.springs(held.total) - found.response.inertia  # on the members
     discs, places = range(len(design.discs)), len(held.places)
     arm = np.stack(
-        [
-            np.stack([contact @ motions.crank(j, i)[:2].T for j in range(cranks)], axis=1)
-            for i in discs
-        ],
+        [np.stack([contact @ motions.crank(j, i)[:2].T for j in range(cranks)], axis=1) for i in discs],
         axis=1,
     )
     ring = -np.stack([contact @ motions.disc(i)[:2].T for i in discs], axis=1) - arm.sum(axis=2)
@@ -230,8 +227,8 @@ def _changed(design: Design, series: Series, loads: _Loads, found: Carried) -> _
 def _spoken(name: str) -> str:
     """Return a motion's name in words: "rotation of disc 1" for "disc0.rotation"."""
     member, motion = name.split(".")
-    kind, number = member.rstrip("0123456789"), member.lstrip("adciknrsg")
-    said = {"disc": "disc", "crank": "crankshaft"}.get(kind, kind)
-    at = motion[-1] if motion[-1].isdigit() else ""
-    place = f" at disc {int(at) + 1}" if at else ""
-    return f"{motion.rstrip('0123456789')} of {said}{f' {int(number) + 1}' if number else ''}{place}"
+    kind, way = member.rstrip("0123456789"), motion.rstrip("0123456789")
+    said = {"crank": "crankshaft"}.get(kind, kind)
+    number = f" {int(member[len(kind) :]) + 1}" if member != kind else ""
+    place = f" at disc {int(motion[len(way) :]) + 1}" if motion != way else ""
+    return f"{way} of {said}{number}{place}"

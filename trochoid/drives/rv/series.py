@@ -41,8 +41,10 @@ class Touches:
 @dataclass(frozen=True, slots=True)
 class Series:
     """Contacts at input angles (n,) in rad, `crank` (n,) as seen from the carrier, `motion` (n, k) on the layout's
-    names with its tangent `stiffness` (n, k, k). `parts` (n, p): shares of the ring's compliance in rad/(N·m), see `breakdown`; `compliance` (n,) the whole,
-    nan where nothing resists. `imbalance` (n,) and `penetration` (n,) are relative residuals.
+    names, with its tangent `stiffness` (n, k, k).
+
+    `parts` (n, p): shares of the ring's compliance in rad/(N·m), see `breakdown`; `compliance` (n,) the whole, nan
+    where nothing resists. `imbalance` (n,) and `penetration` (n,) are relative residuals.
     """
 
     rung: str

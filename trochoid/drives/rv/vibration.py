@@ -23,7 +23,9 @@ CUT = "the positions resolve"  # how the warning begins that counts positions of
 def casing_vibration(design: Design, found: Reactions) -> CasingVibration:
     """Shake the casing on its mounts with the resultant of all forces on it; raises TrochoidError without a casing."""
     carrier = design.speeds.members["carrier"]
-    each = Fraction(carrier) / abs(design.speeds.relative("planet", "carrier"))  # turns per turn of the crankshafts
+    each = Fraction(carrier) / abs(
+        design.speeds.relative("planet", "carrier")
+    )  # turns per turn of the crankshafts
     repeats, step = each.denominator, 2.0 * np.pi * float(each)
     angle = float(carrier) * found.angle
     load, rigid = (to_fixed(x, angle, repeats, step) for x in (found.casing, found.casing_rigid))
