@@ -24,7 +24,7 @@ from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
 
 STEPS = 64  # per shortest period
-MOST = 200_000  # steps of an index
+MOST = 64_000  # steps of an index
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -89,8 +89,8 @@ def respond(index: Index, output: Output, law: PinLaw, steps: int = STEPS) -> Re
     if count > MOST:
         raise NotConverged(
             f"response of the wheel: the index lasts {index.duration * fastest / (2.0 * math.pi):.3g} of its shortest "
-            f"natural periods ({2.0 * math.pi / fastest:.3g} s), and more than {MOST // steps} are not followed: it is "
-            f"nearly quasi-static; leave the vibration out, or take a speed at least {count / MOST:.3g} times as high"
+            f"natural periods ({2.0 * math.pi / fastest:.3g} s), and no more than {MOST // steps} are followed; so slow a "
+            f"drive is as good as rigid: leave the vibration out, or take {count / MOST:.3g} times the speed"
         )
     at = index.sample(np.linspace(0.0, index.duration, 2 * count + 1))
     start = (0.0, float(at[1][0]), 0.0, 0.0, 0.0, 0.0)
@@ -121,7 +121,8 @@ def _course(march: March, at: tuple[Array, Array, Array], h: float, states: Arra
     rows = zip(states.tolist(), lever.tolist(), strict=True)
     torque = np.array([march.torque(y[0], y[1], s) for y, s in rows])
     d, p, e, g = states[:, :4].T
-    return Course(np.arange(n) * h, d, p, e, g, torque, base, _missing(march.output, states, base))
+    time = np.asarray(np.arange(n) * h, dtype=np.float64)
+    return Course(time, d, p, e, g, torque, base, _missing(march.output, states, base))
 
 
 def _missing(output: Output, states: Array, base: Array) -> float:

@@ -27,13 +27,14 @@ class PinLaw:
     @property
     def largest(self) -> float:
         """N at the end of the table, N·m."""
-        return float(self.cubics[:, -1].sum())
+        return float(np.sum(self.cubics[:, -1]))
 
     @property
     def stiffest(self) -> float:
         """Largest slope dN/du in the table, N·m/rad."""
         place = np.arange(1, CELLS + 1) / CELLS
-        return float(self.slope(self.top * place**2).max())
+        slopes: Array = self.slope(self.top * place**2)
+        return float(slopes.max())
 
     def moment(self, pressed: Array) -> Array:
         """Return N (n,) where the pin is pressed by u − play (n,), 0 to `top`."""

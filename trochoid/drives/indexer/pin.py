@@ -15,11 +15,13 @@ from trochoid.drives.indexer.forces import Forces
 from trochoid.dynamics.pin_law import PinLaw, pin_law
 from trochoid.fem.material import Material
 from trochoid.fem.pin_slot import Pin, Pressed, press
+from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.indexer_slot import Slot
 from trochoid.kinematics.types import Array
 from trochoid.scene.drive_indexer import IndexerScene
 
 RESERVE = 4.0  # times the largest force of the rigid drive, up to which the law is tabulated
+LARGE = 0.1  # rad, by which a wheel that an elastic pin drives does not lag
 LOADED = 0.01  # of the largest force, below which a stiffness is not reported
 SAMPLES = 181
 
@@ -44,10 +46,16 @@ def pin_of(scene: IndexerScene, design: Design, slot: Slot) -> Pin:
 
 def law_of(pin: Pin, largest: float, play: float) -> PinLaw:
     """Tabulate the law of a pin up to `RESERVE` times the moment `largest` (N·m); `play`: half the slot's, m."""
-    tries = np.geomspace(1e-9, 1.0, 91)
+    tries = np.geomspace(1e-9, LARGE, 81)
     reached = press(pin, tries).moment
     i = int(np.searchsorted(reached, RESERVE * largest))
-    top = float(tries[min(i, len(tries) - 1)])
+    if i == len(tries):
+        raise Infeasible(
+            f"pin_radius = {1e3 * pin.radius:.6g} mm: under {largest / pin.distance:.4g} N, with {RESERVE:g} times that in "
+            f"reserve, pin and slot would yield by more than {1e3 * LARGE * pin.distance:.3g} mm; the pin must be "
+            "thicker, or change operation.output_torque or input_speed"
+        )
+    top = float(tries[i])
     return pin_law(lambda u: press(pin, u).moment, top, play / pin.distance)
 
 

@@ -109,13 +109,16 @@ class Shaken:
 
     @property
     def left(self) -> float:
-        """Part of the amplitude with which the output still swings when the next index starts."""
-        dwell, period = self.fine.dwell, 2.0 * math.pi / self.output.frequencies[0]
-        rest = 2.0 * (math.pi - self.pair.forces.indexer.half_turn) / self.speed
-        if self.amplitude[0] == 0.0 or dwell.time[-1] < rest - 1e-9 * rest:  # it had ended
+        """Part of the amplitude with which the output still swings when the next index starts, at most."""
+        if self.amplitude[0] == 0.0:
             return 0.0
-        late = dwell.time > rest - period
-        return float(np.abs(dwell.deviation[late] - self.offset).max()) / self.amplitude[0]
+        dwell, period = self.fine.dwell, 2.0 * math.pi / self.output.frequencies[0]
+        late = dwell.time >= dwell.time[-1] - period
+        return (
+            float(np.abs(dwell.deviation[late] - self.offset).max()) / self.amplitude[0]
+            if not self.fine.stuck
+            else 0.0
+        )
 
     @property
     def balance(self) -> float:

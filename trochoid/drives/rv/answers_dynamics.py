@@ -46,11 +46,18 @@ def reactions(s: Stages) -> Quantity:
                     for key, statistic in STATISTICS.items()
                 },
                 "largest_line": _number(s, _line(model, get, line), "N", model),
-                **({} if model == "rigid" else {"change_max": _number(s, _change(get), "N", model)}),
+                **(
+                    {}
+                    if model == "rigid"
+                    else {"change_max": Quantity(_change(found, get), "N", None, model)}
+                ),
                 "largest_line_order": Quantity(order, "", None, "exact"),
                 "largest_line_frequency": Quantity(order * speed, "Hz", None, "exact"),
             }
     note = "over all bearings of a kind, A at the lower z; lines in the carrier's frame, orders of the input speed"
+    if found.elastic is not None:
+        reach = order_of(s.design) * speed * ((len(found.angle) - 1) // 2)
+        note += f"; change_max holds lines up to {reach:.0f} Hz, more positions add more"
     return Quantity(parts=parts, note=f"{note}; {found.reason}")
 
 
@@ -66,13 +73,9 @@ def _of(
     return lambda found: statistic(np.linalg.norm(get(_forces(found, model)), axis=-1))
 
 
-def _change(get: Callable[[Forces], Array]) -> Callable[[Reactions], float]:
-    """Return the largest vector difference of elastic and rigid forces."""
-
-    def change(found: Reactions) -> float:
-        return float(np.linalg.norm(get(_forces(found, "elastic")) - get(found.rigid), axis=-1).max())
-
-    return change
+def _change(found: Reactions, get: Callable[[Forces], Array]) -> float:
+    """Return the largest vector difference of elastic and rigid forces; its error is that of the lines left out."""
+    return float(np.linalg.norm(get(_forces(found, "elastic")) - get(found.rigid), axis=-1).max())
 
 
 def _line(model: str, get: Callable[[Forces], Array], line: int) -> Callable[[Reactions], float]:
