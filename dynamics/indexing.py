@@ -89,8 +89,8 @@ def respond(index: Index, output: Output, law: PinLaw, steps: int = STEPS) -> Re
     if count > MOST:
         raise NotConverged(
             f"response of the wheel: the index lasts {index.duration * fastest / (2.0 * math.pi):.3g} of its shortest "
-            f"natural periods ({2.0 * math.pi / fastest:.3g} s), and no more than {MOST // steps} are followed; so slow a "
-            f"drive is as good as rigid: leave the vibration out, or take {count / MOST:.3g} times the speed"
+            f"natural periods ({2.0 * math.pi / fastest:.3g} s), and no more than {MOST // steps} are followed; "
+            f"so slow a drive is as good as rigid: leave the vibration out, or take {count / MOST:.3g} times the speed"
         )
     at = index.sample(np.linspace(0.0, index.duration, 2 * count + 1))
     start = (0.0, float(at[1][0]), 0.0, 0.0, 0.0, 0.0)

@@ -15,6 +15,7 @@ import numpy as np
 
 from trochoid.kinematics.types import Array
 
+STOPS = 5  # tries at the instant of a stop
 GONE = 1e-5  # of its largest, at which a vibration has ended
 
 Torque: TypeAlias = Callable[[float, float, float], float]
@@ -118,9 +119,26 @@ class March:
         after = piece.base[2] - new[1] - new[3]
         if grip.sign * after >= 0.0:
             return new, grip
+        return self._stopped(y, piece, self._stop(y, piece, grip, after), grip)
+
+    def _stop(self, y: State, piece: Piece, grip: Grip, after: float) -> float:
+        """Part of the piece after which the output stands still, by false position."""
         before = piece.base[0] - y[1] - y[3]
-        part = min(max(before / (before - after), 0.0), 1.0) if before != after else 0.0
-        return self._stopped(y, piece, part, grip)
+        if grip.sign * before <= 0.0:
+            return 0.0
+        low, high, part = (0.0, before), (1.0, after), 1.0
+        for _ in range(STOPS):
+            part = low[0] + (high[0] - low[0]) * low[1] / (low[1] - high[1])
+            cut = piece.part(0.0, part)
+            new = self._step(y, cut, grip)
+            speed = cut.base[2] - new[1] - new[3]
+            if grip.sign * speed > 0.0:
+                low = part, speed
+            elif speed != 0.0:
+                high = part, speed
+            else:
+                break
+        return part
 
     def _stopped(self, y: State, piece: Piece, part: float, grip: Grip) -> tuple[State, Grip]:
         """Go to where the output stands still, then on as friction holds it or lets it go back."""

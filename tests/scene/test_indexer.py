@@ -67,9 +67,9 @@ MARCHED = ("dynamic_factor", "residual_vibration")  # scenes out of all proporti
         (
             'type = "inertia"',
             'type = "friction"',
-            '"friction" is not an effect of indexer drives; it has "elastic_contact", "clearance" and "inertia"',
+            '"friction" is not an effect of indexer drives; it has "elastic_contact", "clearance", "inertia"',
         ),
-        ("[[effects]]\n# Inertia", "# Inertia", "effects"),
+        ("[[effects]]\n# Pin", "# Pin", "effects"),
         ('"ratio"', '"stress_max"', '"stress_max" is not offered by indexer; it offers: ratio'),
         ('"solutions"', '"solution"', 'unknown quantity "solution"; did you mean "solutions"?'),
     ],

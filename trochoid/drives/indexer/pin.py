@@ -51,9 +51,9 @@ def law_of(pin: Pin, largest: float, play: float) -> PinLaw:
     i = int(np.searchsorted(reached, RESERVE * largest))
     if i == len(tries):
         raise Infeasible(
-            f"pin_radius = {1e3 * pin.radius:.6g} mm: under {largest / pin.distance:.4g} N, with {RESERVE:g} times that in "
-            f"reserve, pin and slot would yield by more than {1e3 * LARGE * pin.distance:.3g} mm; the pin must be "
-            "thicker, or change operation.output_torque or input_speed"
+            f"pin_radius = {1e3 * pin.radius:.6g} mm: under {largest / pin.distance:.4g} N, with {RESERVE:g} times "
+            f"that in reserve, pin and slot would yield by more than {1e3 * LARGE * pin.distance:.3g} mm; "
+            "the pin must be thicker, or change operation.output_torque or input_speed"
         )
     top = float(tries[i])
     return pin_law(lambda u: press(pin, u).moment, top, play / pin.distance)
