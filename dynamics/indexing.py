@@ -126,10 +126,13 @@ def _course(march: March, at: tuple[Array, Array, Array], h: float, states: Arra
 
 
 def _missing(output: Output, states: Array, base: Array) -> float:
-    """Energy that is neither in the masses and the shaft nor lost, to all the work of the pin and what there was."""
+    """Energy that is neither in the masses and the shaft nor lost, to the most that there was."""
     first, last = (_state(states[i]) for i in (0, -1))
     before, after = output.energy(first, float(base[0])), output.energy(last, float(base[-1]))
-    size = abs(last[4]) + last[5] + before + after
+    speed, twist, back = base - states[:, 1], states[:, 2], states[:, 3]
+    kinetic = output.inertia * speed**2 + output.load * (speed - back) ** 2
+    most = 0.5 * (kinetic + output.shaft * twist**2)
+    size = last[5] + float(most.max())
     return abs(last[4] - last[5] + before - after) / size if size > 0.0 else 0.0
 
 

@@ -27,7 +27,7 @@ class PinLaw:
     @property
     def largest(self) -> float:
         """N at the end of the table, N·m."""
-        return float(np.sum(self.cubics[:, -1]))
+        return sum(self.cubics[:, -1].tolist(), 0.0)
 
     @property
     def stiffest(self) -> float:
@@ -82,7 +82,8 @@ class PinLaw:
             value += damping * turn * ((3.0 * a3[i] * x + 2.0 * a2[i]) * x + a1[i]) * square / place
             if value < 0.0:
                 return 0.0
-            return s * value if u > 0.0 else -s * value
+            pushed: float = s * value if u > 0.0 else -s * value
+            return pushed
 
         return found
 

@@ -15,6 +15,7 @@ from trochoid.scene.overrides import Override
 
 FREE = "relative_turning_time = 0.2902"
 ELASTIC = 'effects=[{type="elastic_contact"},{type="inertia"}]'
+FAST = "operation.input_speed=300"
 SHAFT = ("drive.output_shaft.inertia=0.02", "drive.output_shaft.stiffness=20000")
 
 
@@ -55,6 +56,7 @@ def test_stiffnesses_in_series() -> None:
     whole = number(run.torsional_stiffness, "indexer", "at_force_max")
     assert 1.0 / whole == pytest.approx(1.0 / mesh + 10800.0 / (math.pi * 20000.0), rel=1e-12)
     error = run.mesh_stiffness.parts["indexer"]["mean"].error  # type: ignore[index, union-attr]
+    assert error is not None
     assert 0.0 < error < 0.1 * mesh
 
 
@@ -63,7 +65,7 @@ def test_stiff_limit() -> None:
     """E times 9 with strong damping: the elastic pin force comes to the rigid one, its lag falls as 1/E."""
     lags = []
     for stiff in (1, 9):
-        run = elastic(f"materials.steel.youngs_modulus={210000 * stiff}", "operation.damping_ratio=0.9")
+        run = elastic(f"materials.steel.youngs_modulus={210000 * stiff}", "operation.damping_ratio=0.9", FAST)
         lags.append(number(run.dynamic_factor, "indexer", "lag_max"))
         factor = number(run.dynamic_factor, "indexer", "factor")
         assert factor == pytest.approx(1.0, abs=0.01 / math.sqrt(stiff))
@@ -72,11 +74,16 @@ def test_stiff_limit() -> None:
 
 @pytest.mark.exact
 def test_soft_shock_doubles_the_start() -> None:
-    """Without friction and nearly without damping the start's pin force overshoots to twice the rigid one."""
-    run = elastic("operation.output_torque=0", "operation.damping_ratio=1e-4", *SHAFT)
-    assert number(run.dynamic_factor, "indexer", "at_entry_over_rigid_start") == pytest.approx(2.0, abs=0.35)
-    bare = elastic("operation.output_torque=0", "operation.damping_ratio=1e-4")
-    assert number(bare.dynamic_factor, "indexer", "at_entry_over_rigid_start") == pytest.approx(2.0, abs=0.06)
+    """Nearly undamped, the start overshoots until ∫N du = N_rigid u: to twice the rigid force or a little more."""
+    run = elastic("operation.output_torque=0", "operation.damping_ratio=0.001")
+    law = run.stages.pairs["indexer"].law
+    start = 0.1 * number(run.contact_force_max, "indexer", "pin_force_at_start")
+    u = np.linspace(0.0, 4.0 * float(law.pressed(np.array([start]))[0]), 20001)
+    work = np.concatenate(([0.0], np.cumsum(0.5 * (law.moment(u)[1:] + law.moment(u)[:-1]) * np.diff(u))))
+    expected = float(law.moment(u[1 + np.argmax(work[1:] > start * u[1:])])) / start
+    assert 2.0 < expected < 2.1
+    found = number(run.dynamic_factor, "indexer", "at_entry_over_rigid_start")
+    assert found == pytest.approx(expected, abs=0.03)
 
 
 @pytest.mark.property
@@ -120,9 +127,9 @@ def test_friction_holds_the_output() -> None:
 @pytest.mark.property
 def test_play_knocks() -> None:
     """With play the pin meets its slot at speed: the peak is higher than without."""
-    tight = number(elastic(*SHAFT).dynamic_factor, "indexer", "factor")
+    tight = number(elastic(*SHAFT, FAST).dynamic_factor, "indexer", "factor")
     knocking = 'effects=[{type="elastic_contact"},{type="clearance"},{type="inertia"}]'
-    loose = elastic(*SHAFT, "drive.pin.play=0.05", knocking)
+    loose = elastic(*SHAFT, "drive.pin.play=0.05", knocking, FAST)
     assert number(loose.dynamic_factor, "indexer", "factor") > tight
     lever = 0.1 * math.sin(math.radians(number(loose.profile, "indexer", "rim_angle")))
     expected = 60 * math.degrees(5e-5 / lever)

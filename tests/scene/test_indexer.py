@@ -162,13 +162,14 @@ def test_named_limits_hold(key: str) -> None:
     wrong = {"drive.pin_radius": 60, "drive.wheel.hub_radius": 80, "drive.wheel.slot_length": 90}.get(
         key, 250
     )
+    held = "drive.pin.overhang=0"
     with pytest.raises(Infeasible) as caught:
-        plan(read(TEXT, (f"{key}={wrong}",)))
+        plan(read(TEXT, (f"{key}={wrong}", held)))
     named = re.findall(r"(?:less than|at least) (?:2 sphere_radius = )?([\d.]+) mm", str(caught.value))
     limit = min(map(float, named))
-    plan(read(TEXT, (f"{key}={limit * (1 - 1e-4)}",)))
+    plan(read(TEXT, (f"{key}={limit * (1 - 1e-4)}", held)))
     with pytest.raises(Infeasible):
-        plan(read(TEXT, (f"{key}={limit * (1 + 1e-4)}",)))
+        plan(read(TEXT, (f"{key}={limit * (1 + 1e-4)}", held)))
 
 
 angles = st.floats(1.0, 179.0) | st.sampled_from([30.0, 45.0, 60.0, 90.0, 120.0])

@@ -46,7 +46,7 @@ def pin_of(scene: IndexerScene, design: Design, slot: Slot) -> Pin:
 
 def law_of(pin: Pin, largest: float, play: float) -> PinLaw:
     """Tabulate the law of a pin up to `RESERVE` times the moment `largest` (N·m); `play`: half the slot's, m."""
-    tries = np.geomspace(1e-9, LARGE, 81)
+    tries = np.geomspace(1e-9, LARGE, 41)
     reached = press(pin, tries).moment
     i = int(np.searchsorted(reached, RESERVE * largest))
     if i == len(tries):

@@ -43,7 +43,10 @@ WHY = {
 
 def plan(scene: IndexerScene) -> Plan:
     """Return what a run would do; raises Infeasible when no pin path serves or the wheel cannot be built."""
-    made = planned(scene, WHY, STAGES_OF, {"synthesis": 0.03, "contact": 0.3, "vibration": 1.5})
+    elastic = ", half-spaces and a march in time" if scene.has("elastic_contact") else ""
+    made = planned(
+        scene, WHY, STAGES_OF, {"synthesis": 0.03, "contact": 0.3, "vibration": 2.0}, f"closed forms{elastic}"
+    )
     stages = Stages(scene, Clock())
     stages.design  # noqa: B018 - raises Infeasible with what binds and the nearest swing
     if any(stage.needed and stage.name == "geometry" for stage in made.stages):
