@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from tests.accuracy.conftest import LEVELS, MODEL, Made, Studied, seconds_of
+from tests.accuracy.conftest import LEVELS, MODEL, QUANTITIES, Made, Studied, seconds_of
 from trochoid.accuracy.errors import errors, modelled
 from trochoid.accuracy.measure import numbers
 from trochoid.kinematics.errors import NotConverged, SceneError
@@ -63,6 +63,26 @@ def test_answer_that_is_not_found_is_said_and_the_rest_kept() -> None:
     assert numbers(made, {"a": lost, "b": kept}) == ({"b": {"": (1.0, "N")}}, {"a": "lost"})
     with pytest.raises(NotConverged, match="lost"):
         numbers(made, {"a": lost})
+
+
+@pytest.mark.exact
+def test_best_rung_that_fails_gives_way_to_the_next(
+    studied: Studied, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where strips find nothing, errors are against level 0 on its finest level, and the reader hears it."""
+
+    def refused(made: Made) -> Quantity:
+        if made.rung == "strips":
+            raise NotConverged("no strips")
+        return Quantity(1.0 + made.error, "N", model=made.rung)
+
+    for name in QUANTITIES:
+        if name != "ratio":
+            monkeypatch.setitem(QUANTITIES, name, refused)
+    found = studied()
+    assert (found.reference.step.rung, found.reference.step.level) == ("level0", LEVELS[-1])
+    assert {judged.step.rung for judged in found.steps} == {"springs", "level0"}
+    assert any("errors are against level0" in remark for remark in found.remarks)
 
 
 @pytest.mark.exact

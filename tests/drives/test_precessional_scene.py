@@ -249,7 +249,11 @@ def test_series_plots_and_stages() -> None:
     np.testing.assert_allclose(orders, [1.0, 16 / 14, 30 / 14, 44 / 14], rtol=1e-12)
     np.testing.assert_allclose(data["reaction_frequency"][0], 2.0 * 15 / 14 * 1430 / 60, rtol=1e-12)
     assert data["reaction_lines_rigid"].sel(reaction="R_A")[0] == pytest.approx(2.49, abs=5e-3)
-    assert [plot.title for plot in outcome.plots] == ["The drive in space", "Margin to undercut", "Campbell diagram"]
+    assert [plot.title for plot in outcome.plots] == [
+        "The drive in space",
+        "Margin to undercut",
+        "Campbell diagram",
+    ]
     assert not outcome.not_needed
     few = Run(scene(ask__quantities=["ratio", "mass"])).outcome
     assert {stage.name for stage in few.stages} == {"kinematics", "geometry"}

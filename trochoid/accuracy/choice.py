@@ -53,7 +53,8 @@ def cost(ladder: Ladder, steps: Sequence[Judged], error: float) -> Cost | None:
     if enough:
         found = min(enough, key=lambda j: j.step.seconds)
         return Cost(error, found.step.rung, found.step.level, found.step.seconds, True)
-    finest = [j for j in steps if j.step.rung == ladder.rungs[-1].name and j.step.level]
+    reference = next(j.step.rung for j in steps if j.estimated)
+    finest = [j for j in steps if j.step.rung == reference and j.step.level]
     last, before = finest[-1], finest[-2]
     if not last.error or last.step.level is None:
         return None

@@ -49,7 +49,7 @@ def study(
         )
     climb = Climb(ladder, {name: drive.quantities[name] for name in ladder.quantities}, announce)
     climb.run(budget)
-    judged = _judged(ladder, list(climb.steps.values()))
+    judged = _judged(ladder, list(climb.steps.values()), climb.remarks)
     found = choice(ladder, judged, climb.solved, climb.seconds, climb.remarks)
     check = _check(climb, judged, announce) if oracle else None
     return Study(
@@ -175,15 +175,24 @@ def _next(costs: Sequence[float]) -> float:
     return growth * known[-1]
 
 
-def _judged(ladder: Ladder, steps: Sequence[Step]) -> list[Judged]:
-    """Compare all steps with the best rung on the finest level; that one with the level before."""
-    best = [step for step in steps if step.level is not None and step.rung == ladder.rungs[-1].name]
-    if len(best) < FEWEST:
+def _judged(ladder: Ladder, steps: Sequence[Step], remarks: list[str]) -> list[Judged]:
+    """Compare all steps with the best rung that was solved on the finest level; that one with the level before."""
+    meshed = [rung.name for rung in ladder.rungs if rung.meshed]
+    known = {
+        name: [step for step in steps if step.rung == name and step.level is not None] for name in meshed
+    }
+    able = [name for name in meshed if len(known[name]) >= FEWEST]
+    if not able:
         raise NotConverged(
-            f"{ladder.rungs[-1].name} could be solved on {len(best)} mesh levels, and an error takes two; see what "
+            f"{meshed[-1]} could be solved on {len(known[meshed[-1]])} mesh levels, and an error takes two; see what "
             "`trochoid run` says, and give another geometry or load"
         )
-    reference, before = best[-1], best[-2]
+    if able[-1] != meshed[-1]:
+        remarks.append(
+            f"{meshed[-1]} could not be solved on two levels: errors are against {able[-1]}, and do not hold its own "
+            "distance from the truth"
+        )
+    before, reference = known[able[-1]][-2:]
     assert reference.level is not None
     assert before.level is not None
     left = 1.0 / ((reference.level / before.level) ** ladder.order - 1.0)

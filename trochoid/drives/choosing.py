@@ -21,6 +21,10 @@ FINEST = 64
 S = TypeVar("S")
 
 
+class TooCoarse(NotConverged):
+    """Contacts were solved, but no mesh level meets the tolerance."""
+
+
 @dataclass(frozen=True, slots=True)
 class Chosen:
     """The rung, the mesh levels that were solved on it (the last two count), the estimated error of the number
@@ -46,7 +50,7 @@ def choose(
 
     `solve(rung, level)` gives the contacts over a turn, `worst_error(fine, coarse)` the largest relative error and
     whose it is, `model_error()` that of level 0, which is not asked for when the scene names a `rung`. Raises
-    NotConverged when no level is fine enough.
+    TooCoarse when no level is fine enough.
     """
     off = 0.0
     if rung is None:
@@ -60,11 +64,27 @@ def choose(
         if error <= tolerance:
             return Chosen(rung, tuple(levels[:count]), error, name, off)
         coarse = fine
-    raise NotConverged(
+    raise TooCoarse(
         f"the error of {name} is estimated at {error:.1e} with {levels[-1]} facets per lobe, more than "
         f"accuracy.tolerance = {tolerance:g}; raise the tolerance to {error:.1e}, or name accuracy.facets_per_lobe "
         "and accept the error"
     )
+
+
+def or_level0(best: Callable[[str | None], Chosen], named: str | None) -> tuple[Chosen, str]:
+    """Return what `best(named)` chooses and ""; where strips find no solution, what level 0 does, and why.
+
+    Strips do not cover every relief of a flank; level 0 does, with an error that is then not known. Raises what
+    `best` raises when a rung is `named`, or no level is fine enough.
+    """
+    try:
+        return best(named), ""
+    except TooCoarse:
+        raise
+    except NotConverged as fault:
+        if named is not None:
+            raise
+        return best("level0"), str(fault)
 
 
 def doubled(first: int) -> tuple[int, ...]:

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from trochoid.clock import Clock
-from trochoid.drives.choosing import choose
+from trochoid.drives.choosing import Chosen, choose, or_level0
 from trochoid.drives.planetary import headline
 from trochoid.drives.planetary.plan import STAGES_OF
 from trochoid.drives.planetary.stages import Solved, Stages
@@ -72,14 +72,18 @@ def _pick(base: Stages, solved: Callable[[str, int | None], Any]) -> Pick:
     from trochoid.drives.planetary.estimate import worst_error
 
     accuracy = base.scene.accuracy
-    chosen = choose(
-        accuracy.tolerance if accuracy.facets_per_lobe is None else float("inf"),
-        base.levels,
-        lambda name, level: solved(name, level).contact.fine,
-        worst_error,
-        lambda: base.model_error(solved("level0", base.levels[0]).contact.level),
-        accuracy.model,
-    )
+
+    def best(rung: str | None) -> Chosen:
+        return choose(
+            accuracy.tolerance if accuracy.facets_per_lobe is None else float("inf"),
+            base.levels,
+            lambda name, level: solved(name, level).contact.fine,
+            worst_error,
+            lambda: base.model_error(solved("level0", base.levels[0]).contact.level),
+            rung,
+        )
+
+    chosen, _ = or_level0(best, accuracy.model)
     named = accuracy.model is not None or accuracy.facets_per_lobe is not None
     error = chosen.error + chosen.model_error
     return Pick(chosen.rung, chosen.levels[-1], error, chosen.of, chosen.levels, named)

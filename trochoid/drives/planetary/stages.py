@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from trochoid.clock import Clock
-from trochoid.drives.choosing import POSITIONS, Chosen, choose
+from trochoid.drives.choosing import POSITIONS, Chosen, choose, or_level0
 from trochoid.drives.mesh_error import Pair
 from trochoid.drives.planetary.design import Design, design
 from trochoid.kinematics.errors import Infeasible, NotConverged, SceneError
@@ -194,13 +194,8 @@ class Stages:
             tolerance = accuracy.tolerance if accuracy.facets_per_lobe is None else float("inf")
             return choose(tolerance, levels, solve, worst_error, off, rung)
 
-        try:
-            found = best(accuracy.model)
-        except NotConverged as fault:
-            if accuracy.model is not None or (fault.row is None and "accuracy.tolerance" in str(fault)):
-                raise
-            faults.append(str(fault))  # strips do not cover every relief; level 0 does, with an error unknown
-            found = best("level0")
+        found, fault = or_level0(best, accuracy.model)
+        faults.append(fault)
         coarse, fine = found.levels[-2:]
         return Solved(solved[fine], solved[coarse], built[fine], built[coarse], "".join(faults))
 
