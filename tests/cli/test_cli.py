@@ -234,7 +234,8 @@ def test_full_disk_is_one_line() -> None:
 def test_signal_ends_a_run_with_one_line(tmp_path: Path, number: signal.Signals) -> None:
     """Ctrl-C and a termination signal: one line, exit code 1, no files left behind."""
     program = f"""if True:
-        import sys, time
+        import signal, sys, time
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # tests in the background inherit its being ignored
         from trochoid.cli import main
         from trochoid.run import Run
         def outcome(run):
