@@ -15,11 +15,15 @@ FREE = 1e-6  # of the stiffest frequency: below it a mode is free and its freque
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Whirl:
-    """Modes at one speed, by rising frequency: `frequency` (k,) Hz, damping `ratio` (k,), complex `shapes` (n, k)."""
+    """Modes at one speed, by rising frequency: `frequency` (k,) Hz, damping `ratio` (k,), complex `shapes` (n, k).
+
+    `growth` (1/s) is the fastest at which any motion grows, oscillating or not; 0 where none does.
+    """
 
     frequency: Array
     ratio: Array
     shapes: ComplexArray
+    growth: float = 0.0
 
     def direction(self, x: int, y: int) -> Array:
         """Sense (k,) in which the coordinates x, y circle: 1 with the x to y turn, −1 against it, 0 on a line."""
@@ -49,7 +53,9 @@ def whirl(system: System) -> Whirl:
     chosen = values[kept]
     shapes = size[:, None] * vectors[:n, kept]
     shapes = shapes / np.linalg.norm(shapes, axis=0)
-    return Whirl(frozen(chosen.imag / (2.0 * np.pi)), frozen(-chosen.real / np.abs(chosen)), shapes)
+    fastest = float(values.real.max(initial=0.0))
+    growth = fastest if fastest > FREE * reach else 0.0
+    return Whirl(frozen(chosen.imag / (2.0 * np.pi)), frozen(-chosen.real / np.abs(chosen)), shapes, growth)
 
 
 def campbell(system_at: Callable[[float], System], speeds: Iterable[float]) -> tuple[Whirl, ...]:

@@ -96,7 +96,8 @@ class GearPair:
         middle = touch.point + (touch.gap + touch.radii[1]) * touch.normal
         away = 1.0 / touch.bend + touch.radii[1] + touch.gap
         reach = _plane(middle) - center[..., None, :], _plane(middle) - other[..., None, :]
-        return turning_of(self.first, self.second, reach, state.normal, 1.0 / away, force)
+        bend = np.divide(1.0, away, out=np.full_like(away, np.inf), where=away != 0.0)
+        return turning_of(self.first, self.second, reach, state.normal, bend, force)
 
     def sliding(self, state: State, motion: Array) -> Array:
         """Return how fast the first gear's flanks slide past the second's."""

@@ -11,6 +11,7 @@ from trochoid.fem import complementarity as lcp
 from trochoid.fem.assembly import Assembly, Contact, Touch
 from trochoid.fem.pair import State
 from trochoid.fem.rows import joined, taken
+from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array, BoolArray
 
 QUICK = 30  # pivots within which a step with turning arms must be found
@@ -93,12 +94,20 @@ def turning(assembly: Assembly, point: Point) -> Array:
     total = np.zeros((len(point.motion), count, count))
     if assembly.follow:
         for family, state, force in zip(assembly.families, point.states, point.forces, strict=True):
-            total += family.pair.turning(state, point.motion, force)
+            with np.errstate(
+                invalid="ignore"
+            ):  # members far out of place: `convex` refuses what is no number
+                total += family.pair.turning(state, point.motion, force)
     return total
 
 
 def convex(stiffness: Array) -> Array:
     """Return the positive part of symmetric matrices (n, k, k): with it each step stays a convex problem."""
+    if not np.isfinite(stiffness).all():
+        raise NotConverged(
+            "contact: members have moved so far that surfaces no longer face each other; what holds them is too soft "
+            "for the load"
+        )
     own = np.einsum("nkk->nk", stiffness)
     felt = own != 0.0  # the other motions stay free, without rounding
     both = felt[:, :, None] & felt[:, None]

@@ -62,6 +62,8 @@ def exaggeration(size: float, displacement: float) -> float:
 
 def _collection(folder: Path) -> Path:
     collection = folder / COLLECTION
+    if not folder.is_dir():
+        raise TrochoidError(f"no folder {folder}; give the one that a run wrote, such as out/cycloid")
     if not collection.is_file():
         raise TrochoidError(
             f"no {COLLECTION} in {folder}: fields are written for stress_max, where the drive offers it; all other "

@@ -10,6 +10,7 @@ import pytest
 from tests.drives.planetary_cases import (
     ELASTIC,
     ERRORS,
+    EXAMPLE,
     FLOATING,
     INERTIA,
     RELIEF,
@@ -26,6 +27,7 @@ from trochoid.drives.planetary.roots import roots
 from trochoid.drives.planetary.stages import Solved
 from trochoid.faults import SceneFaults
 from trochoid.kinematics.errors import Infeasible, SceneError
+from trochoid.results import Quantity
 from trochoid.run import Run, plan
 from trochoid.scene import NEEDS, Override, read
 
@@ -314,3 +316,27 @@ def test_check_plans_the_contacts() -> None:
     assert "blocking" not in needed
     rigid = plan(read(text(SMALL), ["effects=[]", 'ask.quantities=["bearing_loads"]']))
     assert "contact" not in {stage.name for stage in rigid.stages if stage.needed}
+
+
+@pytest.mark.property
+def test_a_planet_far_behind_carries_nothing() -> None:
+    """0.2 mm behind the others it stays out of mesh: two share the torque, its roots have no tension."""
+    found = Run(
+        read(
+            EXAMPLE.read_text(encoding="utf-8"),
+            (
+                'ask.quantities=["load_sharing", "stress_max"]',
+                "ask.positions=4",
+                "accuracy.facets_per_lobe=10",
+                "drive.planet.position_errors=[0.2]",
+            ),
+        )
+    )
+    assert found.load_sharing.parts is not None
+    of_planets = found.load_sharing.parts["mean_share_of_the_torque"]
+    inner = of_planets.parts if isinstance(of_planets, Quantity) else of_planets
+    assert inner is not None
+    shares = [float(getattr(each, "value", -1.0)) for each in inner.values()]
+    assert min(shares) == 0.0
+    assert sum(shares) == pytest.approx(1.0, abs=1e-9)
+    assert found.stress_max.parts

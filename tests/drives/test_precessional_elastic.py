@@ -25,7 +25,7 @@ from trochoid.drives.precessional.stages import Stages
 from trochoid.drives.precessional.turn import elastic_residual, turns
 from trochoid.fem.rolling import stiffness
 from trochoid.fem.rolling_assumed import assumed_ball_bearing
-from trochoid.kinematics.errors import Infeasible
+from trochoid.kinematics.errors import Infeasible, NotConverged
 from trochoid.run import Run
 from trochoid.scene import Override, load
 from trochoid.scene.drive_precessional import Bearing, Support
@@ -108,6 +108,15 @@ def test_stiff_joints_give_the_rigid_reactions(drive: PrecessionalDrive, which: 
 
     found = away(1e19)
     assert found < 1e-6 or away(1e21) < 0.02 * found
+
+
+@pytest.mark.property
+def test_motion_that_does_not_last_is_refused() -> None:
+    """Past a critical speed of its soft joints the members run away: no reaction, no frequency is told."""
+    overrides = ('ask.quantities=["natural_frequencies"]', "operation.input_speed=24000")
+    with pytest.raises(NotConverged, match="do not stay on any steady motion"):
+        Run(load(EXAMPLE, overrides)).natural_frequencies  # noqa: B018
+    assert Run(load(EXAMPLE, overrides[:1])).natural_frequencies.parts
 
 
 @pytest.mark.property

@@ -39,7 +39,8 @@ def study(
     drive = drive_of(scene.drive.type)
     if drive.ladder is None:
         raise SceneError(
-            f"all answers about {scene.drive.type} drives are closed forms: they have no error to pay for"
+            f"{scene.drive.type} drives have no models and meshes to compare: their answers come with what is known of "
+            "their error"
         )
     ladder = drive.ladder(scene, Clock(announce))
     if not ladder.quantities:

@@ -262,6 +262,11 @@ class Stages:
     @cached_property
     def torsional(self) -> Torsional | None:
         """Torsional vibration of the driven member, on the finer mesh level; None where it is free within its play."""
+        if self.scene.ask.positions < 3:
+            raise SceneError(
+                f"torsional_vibration needs ask.positions of 3 or more, given {self.scene.ask.positions}: a harmonic "
+                "takes three"
+            )
         solved, masses = self.contact, self.masses
         with self.clock.stage("torsional"):
             from trochoid.drives.khv.torsional import pendulum, torsional

@@ -192,9 +192,12 @@ def _all(series: Series) -> tuple[str, ...]:
 def _along(series: Series, pushed: Array) -> Array:
     """Return forces (n, 2, N) of both meshes that resist on a planet with `pushed` (n, N, 2), each along its normal."""
     ways = []
-    for touches in (series.sun, series.ring):
+    for touches, idle in ((series.sun, (1.0, 0.0)), (series.ring, (0.0, 1.0))):
         way = touches.resultant.mean(axis=0)
-        ways.append(way / np.linalg.norm(way, axis=-1, keepdims=True))
+        size = np.linalg.norm(way, axis=-1, keepdims=True)
+        ways.append(
+            np.where(size > 0.0, way / np.where(size > 0.0, size, 1.0), idle)
+        )  # a planet may carry nothing
     lines = np.stack([-ways[0], ways[1]], axis=-1)  # the sun presses a planet, a planet presses the ring
     return np.asarray(np.linalg.solve(lines, pushed[..., None])[..., 0].transpose(0, 2, 1))
 

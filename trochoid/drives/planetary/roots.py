@@ -58,4 +58,6 @@ def _most(table: RootTable, loaded: list[Loaded], width: float) -> Array:
         for c in np.flatnonzero(part.force.max(axis=0) > 0.0):
             stress = largest(root_stress(table, loaded, tooth[:, c], width))
             found.append(np.where(part.force[:, c] > 0.0, stress, 0.0))
+    if not found:  # a planet that nothing loads
+        return np.zeros(len(loaded[0].force))
     return np.asarray(np.max(found, axis=0))

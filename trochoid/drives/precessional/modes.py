@@ -21,7 +21,7 @@ from trochoid.dynamics.casing import Casing, Mount, follow, matrices
 from trochoid.dynamics.constraint import free_motions
 from trochoid.dynamics.system import System
 from trochoid.dynamics.whirl import Whirl, whirl
-from trochoid.kinematics.errors import TrochoidError
+from trochoid.kinematics.errors import NotConverged, TrochoidError
 from trochoid.kinematics.types import Array, frozen
 from trochoid.results.plot import Plot
 
@@ -85,6 +85,19 @@ def natural_modes(design: Design, drive: PrecessionalDrive, held: Yielding | Non
         _campbell(reduced, speed, drive.tooth_ratio),
         casing is not None,
     )
+
+
+def fail_if_unstable(held: Yielding, speed: float) -> None:
+    """Raise NotConverged where the members run away from their steady motion at a speed of the shaft (rad/s)."""
+    if not held.joints.yields:
+        return
+    growth = whirl(reduce(held.bodies, speed).system(speed)).growth
+    if growth > 0.0:
+        raise NotConverged(
+            f"at {30.0 * speed / np.pi:.6g} rpm the members do not stay on any steady motion: what disturbs it grows "
+            f"by e every {1.0 / growth:.2g} s without damping, for joints are too soft for the inertia that turns; "
+            "take a lower operation.input_speed or stiffer bearings"
+        )
 
 
 def casing_matrices(design: Design) -> tuple[Array, Array]:

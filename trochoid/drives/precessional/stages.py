@@ -69,14 +69,20 @@ class Stages:
 
     @cached_property
     def yielding(self) -> Yielding | None:
-        """Joints that yield and the steady motion on them; None where the scene has none."""
+        """Joints that yield and the steady motion on them; None where the scene has none.
+
+        Raises NotConverged where no steady motion lasts: the members run away from it, undamped, at this speed.
+        """
         if not self.scene.has("bearing_compliance"):
             return None
         drive, made = self.mechanism, self.design
         with self.clock.stage("elastic"):
+            from trochoid.drives.precessional.modes import fail_if_unstable
             from trochoid.drives.precessional.yielding import yielding
 
-            return yielding(made, drive)
+            found = yielding(made, drive)
+            fail_if_unstable(found, made.speed)
+            return found
 
     @property
     def elastic(self) -> Elastic | None:
