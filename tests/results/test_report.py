@@ -296,3 +296,17 @@ def test_arrows_are_as_long_as_forces_are_large() -> None:
         *(f"disc 1: 1 force, {f} N (pin 4)" for f in (100, 200)),
     ]
     assert spec["scale"] == "Arrows: 560 mm for 200 N."
+
+
+@pytest.mark.exact
+def test_names_are_never_an_axis() -> None:
+    """A few harmonics of many named bearings: the axis is the harmonics, however few they are."""
+    amplitudes = xarray.DataArray(
+        np.ones((4, 2)),
+        dims=("bearing", "harmonic"),
+        coords={"bearing": ["shaft A", "shaft B", "flange A", "flange B"], "harmonic": [1, 2]},
+        attrs={"units": "N", "figure": "Harmonics"},
+    )
+    (figure,) = figures(xarray.Dataset({"amplitude": amplitudes}))
+    assert len(figure.spec["data"]) == 4
+    assert all(len(_numbers(trace["x"])) >= 2 for trace in figure.spec["data"])
