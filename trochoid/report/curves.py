@@ -100,5 +100,7 @@ def _x_dim(variable: xarray.DataArray) -> str:
     """Return the dimension along which to plot: the angle or the frequency, else the longest that has numbers."""
     dims = [str(dim) for dim in variable.dims]
     axes = [dim for dim in dims if dim in ("input_angle", "frequency", "load_torque")]
-    counted = [dim for dim in dims if dim not in variable.coords or variable.coords[dim].dtype.kind not in "OSU"]
+    counted = [
+        dim for dim in dims if dim not in variable.coords or variable.coords[dim].dtype.kind not in "OSU"
+    ]
     return axes[0] if axes else max(counted or dims, key=lambda dim: variable.sizes[dim])
