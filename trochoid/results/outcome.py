@@ -47,6 +47,11 @@ class Check:
     limit: float
     ok: bool
 
+    @classmethod
+    def within(cls, name: str, value: float, limit: float) -> Check:
+        """Return the check of a size against its limit; what is no number does not hold."""
+        return cls(name, value, limit, bool(value <= limit))
+
 
 @dataclass(frozen=True, slots=True)
 class Stage:

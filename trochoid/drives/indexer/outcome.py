@@ -8,13 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from trochoid.drives.gathering import begun, timed
 from trochoid.drives.indexer import headline
 from trochoid.drives.indexer.design import SHOWN
 from trochoid.drives.indexer.plan import WHY
 from trochoid.drives.indexer.stages import Stages
 from trochoid.drives.indexer.words import NAMES
 from trochoid.kinematics.indexer import motion
-from trochoid.results.outcome import Check, Outcome, Quantity, Stage
+from trochoid.results.outcome import Check, Outcome, Quantity
 
 EXACT = 1e-9
 MARCHED = 1e-3
@@ -25,16 +26,8 @@ LEFT = 0.01  # of the amplitude, left when the next index starts
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but the figures' own."""
     ran = tuple(stages.clock.seconds)
-    made = Outcome(
-        scene=stages.scene.model_dump(mode="json"),
-        quantities=quantities,
-        not_needed=tuple(name for name in WHY if name not in ran),
-        title=headline.title(stages),
-        facts=headline.facts(stages),
-        not_simulated=headline.not_simulated(stages.scene),
-        checks=checks(stages, ran),
-        warnings=warnings(stages, ran),
-    )
+    made = begun(stages, quantities, WHY, headline, headline.not_simulated(stages.scene))
+    made = replace(made, checks=checks(stages, ran), warnings=warnings(stages, ran))
     if "motion" in ran or "geometry" in ran:
         with stages.clock.stage("figures"):
             from trochoid.drives.indexer.dataset import dataset
@@ -46,8 +39,7 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
             from trochoid.drives.indexer.plane import drawing
 
             made = replace(made, drawing=drawing(stages))
-    seconds = stages.clock.seconds
-    return replace(made, stages=tuple(Stage(name, seconds[name]) for name in seconds))
+    return timed(made, stages.clock)
 
 
 def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
@@ -59,30 +51,21 @@ def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
     swing = abs(made.swing - stages.scene.drive.swing_angle)
     back = max(0.0, -float((at.velocity * made.sense).min())) / top
     found = [
-        _check("no hard shock: speed of the wheel at both ends over its peak", ends),
-        _check("swing of the wheel as asked, rad", swing),
-        _check("the wheel never turns back, speed over its peak", back),
+        Check.within("no hard shock: speed of the wheel at both ends over its peak", ends, EXACT),
+        Check.within("swing of the wheel as asked, rad", swing, EXACT),
+        Check.within("the wheel never turns back, speed over its peak", back, EXACT),
     ]
     if "forces" in ran:
         found += [
-            _check(f"power in = power out + kinetic, {SHOWN[name]}", forces.residual())
+            Check.within(f"power in = power out + kinetic, {SHOWN[name]}", forces.residual(), EXACT)
             for name, forces in stages.forces.items()
         ]
     if "vibration" in ran:
         found += [
-            Check(
-                f"work of the pin = energy and losses, {NAMES[name]}",
-                x.balance,
-                MARCHED,
-                x.balance <= MARCHED,
-            )
+            Check.within(f"work of the pin = energy and losses, {NAMES[name]}", x.balance, MARCHED)
             for name, x in stages.shaken.items()
         ]
     return tuple(found)
-
-
-def _check(name: str, value: float) -> Check:
-    return Check(name, value, EXACT, bool(value <= EXACT))
 
 
 def warnings(stages: Stages, ran: tuple[str, ...]) -> tuple[str, ...]:

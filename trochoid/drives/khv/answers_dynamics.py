@@ -14,6 +14,7 @@ from trochoid.drives.khv.series import Series
 from trochoid.drives.khv.stages import Stages
 from trochoid.drives.khv.vibration import CasingVibration
 from trochoid.drives.mesh_error import Pair
+from trochoid.drives.vibration import velocity, zone_answer
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Quantity
 
@@ -145,13 +146,11 @@ def vibration_velocity(s: Stages) -> Quantity:
 
 def _velocity(point: int, axis: int | None, rigid: bool = False) -> Callable[[CasingVibration], float]:
     def get(found: CasingVibration) -> float:
-        rms = (found.rigid if rigid else found.elastic).rms[point]
-        return 1e3 * float(rms.max() if axis is None else rms[axis])
+        return velocity(found.rigid if rigid else found.elastic, point, axis)
 
     return get
 
 
 def vibration_zone(s: Stages) -> Quantity:
     """Zone by the standard that applies, or the statement that none does."""
-    zone = s.vibration.fine.zone
-    return Quantity(zone.letter or "none applies", "", None, zone.standard, note=zone.reason)
+    return zone_answer(s.vibration.fine.zone)

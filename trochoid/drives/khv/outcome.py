@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from trochoid.drives.gathering import begun, timed
 from trochoid.drives.khv import headline
 from trochoid.drives.khv.plan import WHY
 from trochoid.drives.khv.stages import Stages
 from trochoid.kinematics.types import Array
-from trochoid.results.outcome import Check, Outcome, Quantity, Stage
+from trochoid.results.outcome import Check, Outcome, Quantity
 
 if TYPE_CHECKING:
     from trochoid.drives.khv.series import Series
@@ -24,20 +25,12 @@ BALANCE = 1e-9
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but the figures' own."""
     ran = tuple(stages.clock.seconds)
-    words = Outcome(
-        scene=stages.scene.model_dump(mode="json"),
-        quantities=quantities,
-        not_needed=tuple(name for name in WHY if name not in ran),
-        title=headline.title(stages),
-        facts=headline.facts(stages),
-        not_simulated=headline.not_simulated(stages.scene),
-    )
+    words = begun(stages, quantities, WHY, headline, headline.not_simulated(stages.scene))
     if "contact" in ran:
         words = replace(words, checks=checks(stages), warnings=warnings(stages), **_pictures(stages, ran))
     if "reactions" in ran:
         words = replace(words, notes={"Rigid and elastic reactions": stages.reactions.fine.reason})
-    seconds = stages.clock.seconds
-    return replace(words, stages=tuple(Stage(name, seconds[name]) for name in seconds))
+    return timed(words, stages.clock)
 
 
 def _pictures(stages: Stages, ran: tuple[str, ...]) -> dict[str, Any]:
@@ -69,25 +62,23 @@ def checks(stages: Stages) -> tuple[Check, ...]:
     """Return the balances of what was solved."""
     series = stages.contact.fine
     found = [
-        _check("forces and torques balance at every position", series.imbalance, BALANCE),
-        _check("no contact penetrates", series.penetration, BALANCE),
+        Check.within("forces and torques balance at every position", series.imbalance, BALANCE),
+        Check.within("no contact penetrates", series.penetration, BALANCE),
     ]
     for i in range(len(stages.design.discs)):
-        found.append(_check(f"disc {i + 1} in equilibrium", disc_residual(stages, i), BALANCE))
-    found.append(_check("output pins carry the output torque", torque_residual(stages), BALANCE))
+        found.append(Check.within(f"disc {i + 1} in equilibrium", disc_residual(stages, i), BALANCE))
+    found.append(Check.within("output pins carry the output torque", torque_residual(stages), BALANCE))
     if "losses" in stages.clock.seconds:
-        found.append(_check("input power is output power and losses", stages.losses.fine.residual, BALANCE))
+        found.append(
+            Check.within("input power is output power and losses", stages.losses.fine.residual, BALANCE)
+        )
     if "reactions" in stages.clock.seconds:
         found.append(
-            _check(
+            Check.within(
                 "reactions on the casing sum to the members' inertia", stages.reactions.fine.residual, BALANCE
             )
         )
     return tuple(found)
-
-
-def _check(name: str, value: float, limit: float) -> Check:
-    return Check(name, value, limit, bool(value <= limit))
 
 
 def disc_residual(stages: Stages, i: int) -> float:

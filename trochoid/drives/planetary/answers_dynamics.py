@@ -12,6 +12,7 @@ from trochoid.drives.planetary.answers_contact import number
 from trochoid.drives.planetary.moving import MAIN
 from trochoid.drives.planetary.reactions import Reactions, explain
 from trochoid.drives.planetary.stages import Stages
+from trochoid.drives.vibration import velocity, zone_answer
 from trochoid.dynamics.spectrum import harmonics
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Parts, Quantity
@@ -138,13 +139,11 @@ def _rms(s: Stages, get: Callable[[CasingVibration], float]) -> Quantity:
 
 def _velocity(point: int, axis: int | None, static: bool = False) -> Callable[[CasingVibration], float]:
     def get(found: CasingVibration) -> float:
-        rms = (found.static if static else found.elastic).rms[point]
-        return 1e3 * float(rms.max() if axis is None else rms[axis])
+        return velocity(found.static if static else found.elastic, point, axis)
 
     return get
 
 
 def vibration_zone(s: Stages) -> Quantity:
     """Zone by the standard that applies, or the statement that none does."""
-    zone = s.vibration.fine.zone
-    return Quantity(zone.letter or "none applies", "", None, zone.standard, note=zone.reason)
+    return zone_answer(s.vibration.fine.zone)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from trochoid.drives.gathering import begun, timed
 from trochoid.drives.planetary import headline
 from trochoid.drives.planetary.plan import ELASTIC, WHY
 from trochoid.drives.planetary.stages import Stages
-from trochoid.results.outcome import Check, Outcome, Quantity, Stage
+from trochoid.results.outcome import Check, Outcome, Quantity
 
 BALANCE = 1e-9
 NOTICED = 1e-8  # m of play that is worth a word
@@ -18,13 +19,12 @@ NEAR_RESONANCE = 5.0  # times the answer to a force that rests
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but what the figures need."""
     ran, elastic = tuple(stages.clock.seconds), stages.scene.has("elastic_contact")
-    words = Outcome(
-        scene=stages.scene.model_dump(mode="json"),
-        quantities=quantities,
-        not_needed=tuple(name for name in WHY if name not in ran and (elastic or name not in ELASTIC)),
-        title=headline.title(stages),
-        facts=headline.facts(stages),
-        not_simulated=headline.not_simulated(stages.scene),
+    words = begun(
+        stages,
+        quantities,
+        [name for name in WHY if elastic or name not in ELASTIC],
+        headline,
+        headline.not_simulated(stages.scene),
     )
     if "geometry" in ran:
         words = replace(words, warnings=tuple(warnings(stages)))
@@ -47,16 +47,15 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
             from trochoid.drives.planetary.plots import plots
 
             words = replace(words, dataset=blocking_dataset(stages), plots=plots(stages, ran))
-    seconds = stages.clock.seconds
-    return replace(words, stages=tuple(Stage(name, seconds[name]) for name in seconds))
+    return timed(words, stages.clock)
 
 
 def checks(stages: Stages) -> tuple[Check, ...]:
     """Return the balances of the members."""
     torque, power = stages.rigid.residuals
     return (
-        Check("torques of the members balance", torque, BALANCE, torque <= BALANCE),
-        Check("power in is power out", power, BALANCE, power <= BALANCE),
+        Check.within("torques of the members balance", torque, BALANCE),
+        Check.within("power in is power out", power, BALANCE),
     )
 
 
@@ -80,7 +79,7 @@ def contact_checks(stages: Stages) -> tuple[Check, ...]:
         found["teeth of the moving set press each other alike"] = moved.balance
         found["forces of the moving set are its inertia"] = moved.seats
         found["work of the moving set is what damping takes"] = moved.work
-    return tuple(Check(name, value, BALANCE, value <= BALANCE) for name, value in found.items())
+    return tuple(Check.within(name, value, BALANCE) for name, value in found.items())
 
 
 def warnings(stages: Stages) -> Iterator[str]:

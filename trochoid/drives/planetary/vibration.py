@@ -14,11 +14,10 @@ import numpy as np
 
 from trochoid.drives.planetary.design import Design
 from trochoid.drives.planetary.reactions import Reactions
-from trochoid.dynamics.casing import Casing, Mount
-from trochoid.dynamics.vibration import Point, Vibration, positions_for, vibrate
+from trochoid.drives.vibration import casing_of, zone_of
+from trochoid.dynamics.vibration import Vibration, positions_for, vibrate
 from trochoid.dynamics.wrench import Wrench
-from trochoid.dynamics.zones import Machine, Zone, zone
-from trochoid.kinematics.errors import TrochoidError
+from trochoid.dynamics.zones import Zone
 from trochoid.kinematics.train import Speeds
 from trochoid.kinematics.types import Array, frozen
 
@@ -35,12 +34,7 @@ class CasingVibration:
 def casing_vibration(design: Design, turning: Speeds, found: Reactions) -> CasingVibration:
     """Shake the casing on its mounts; raises TrochoidError without a casing."""
     scene, d = design.scene, design.drive
-    if scene.casing is None:
-        raise TrochoidError("vibration needs the scene's [casing] table")
-    table = scene.casing
-    mounts = tuple(Mount(m.position, m.stiffness, m.damping) for m in table.mounts)
-    casing = Casing(table.mass, table.inertia, table.center, mounts)
-    points = tuple(Point(p.name, p.position) for p in table.points) or (Point("centre", table.center),)
+    casing, points = casing_of(scene)
     pitches = whole_pitches(design)
     base = found.speed / (2.0 * np.pi) / pitches
     sense = np.sign(float(turning.members["carrier"]))
@@ -50,14 +44,7 @@ def casing_vibration(design: Design, turning: Speeds, found: Reactions) -> Casin
     )
     speed = scene.operation.input_speed
     driven = abs(float(turning.members[d.driven])) * speed
-    machine = Machine(
-        scene.operation.output_torque * driven,
-        speed,
-        driven,
-        gear_unit=table.machine != "industrial_machine",
-        rigid_support=table.rigid_support,
-    )
-    return CasingVibration(elastic, static, zone(elastic.rms_max, machine))
+    return CasingVibration(elastic, static, zone_of(scene, elastic, (speed, driven)))
 
 
 def _warned(found: Vibration, pitches: int) -> Vibration:

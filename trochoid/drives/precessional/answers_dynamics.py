@@ -10,6 +10,7 @@ import numpy as np
 from trochoid.drives.exact import exact
 from trochoid.drives.precessional.stages import Stages
 from trochoid.drives.precessional.turn import FORCES, MODELS, MOMENTS
+from trochoid.drives.vibration import velocity, zone_answer
 from trochoid.dynamics.vibration import Vibration
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Quantity
@@ -130,14 +131,12 @@ def vibration_velocity(s: Stages) -> Quantity:
 
 
 def _velocity(found: Vibration, point: int, axis: int | None = None, model: str = "rigid") -> Quantity:
-    rms = found.rms[point]
-    return Quantity(1e3 * float(rms.max() if axis is None else rms[axis]), "mm/s", None, model)
+    return Quantity(velocity(found, point, axis), "mm/s", None, model)
 
 
 def vibration_zone(s: Stages) -> Quantity:
     """Zone by the standard that applies, or the statement that none does."""
-    zone = s.vibration.zone
-    return Quantity(zone.letter or "none applies", "", None, zone.standard, note=zone.reason)
+    return zone_answer(s.vibration.zone)
 
 
 def mass(s: Stages) -> Quantity:

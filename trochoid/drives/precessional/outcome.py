@@ -6,10 +6,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
+from trochoid.drives.gathering import begun, timed
 from trochoid.drives.precessional import headline
 from trochoid.drives.precessional.plan import ELASTIC, WHY
 from trochoid.drives.precessional.stages import Stages
-from trochoid.results.outcome import Check, Outcome, Quantity, Stage
+from trochoid.results.outcome import Check, Outcome, Quantity
 
 BALANCE = 1e-9
 ENERGY = 1e-6
@@ -20,22 +21,19 @@ SOLVED = 1e-6  # of the largest approach; under a thousandth of a usual torque r
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but the figures' own."""
     ran, elastic = tuple(stages.clock.seconds), stages.scene.has("elastic_contact")
-    words = Outcome(
-        scene=stages.scene.model_dump(mode="json"),
-        quantities=quantities,
-        not_needed=tuple(name for name in WHY if name not in ran and (elastic or name not in ELASTIC)),
-        checks=checks(stages, ran),
-        warnings=tuple(warnings(stages)),
-        title=headline.title(stages),
-        facts=headline.facts(stages),
-        not_simulated=headline.not_simulated(stages.scene),
+    words = begun(
+        stages,
+        quantities,
+        [name for name in WHY if elastic or name not in ELASTIC],
+        headline,
+        headline.not_simulated(stages.scene),
     )
+    words = replace(words, checks=checks(stages, ran), warnings=tuple(warnings(stages)))
     if "reactions" in ran:
         words = replace(words, notes=headline.notes(stages))
     if {"penetration", "contact", "reactions", "vibration", "modes"} & set(ran) or "profile" in quantities:
         words = replace(words, **_pictures(stages, ran, "profile" in quantities))
-    seconds = stages.clock.seconds
-    return replace(words, stages=tuple(Stage(name, seconds[name]) for name in seconds))
+    return timed(words, stages.clock)
 
 
 def _pictures(stages: Stages, ran: tuple[str, ...], profile: bool) -> dict[str, Any]:
@@ -60,13 +58,13 @@ def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
     found = []
     if "penetration" in ran and stages.penetration is not None:
         found.append(
-            _check("no pin cuts into a flank at any input angle (rad)", stages.penetration, PENETRATION)
+            Check.within("no pin cuts into a flank at any input angle (rad)", stages.penetration, PENETRATION)
         )
     if "reactions" in ran:
         from trochoid.drives.precessional.turn import residual
 
         off = residual(stages.mechanism, stages.design.speed, stages.reactions["rigid"])
-        found.append(_check("rigid reactions on the casing sum to the members' inertia", off, BALANCE))
+        found.append(Check.within("rigid reactions on the casing sum to the members' inertia", off, BALANCE))
     if "contact" in ran and stages.contact is not None:
         from trochoid.drives.precessional.tooth_loads import power_residual, spin_residual, tooth_loads
 
@@ -74,22 +72,24 @@ def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
         loads = tooth_loads(stages.design, series)
         power = power_residual(stages.design, series, loads)
         found += [
-            _check(
+            Check.within(
                 "teeth and rollers neither overlap nor part where pressed",
                 float(series.residual.max()),
                 SOLVED,
             ),
-            _check("teeth turn the satellite as the output holds it", spin_residual(series), BALANCE),
-            _check("power goes out or into pressed teeth", power, BALANCE),
+            Check.within("teeth turn the satellite as the output holds it", spin_residual(series), BALANCE),
+            Check.within("power goes out or into pressed teeth", power, BALANCE),
         ]
     if "reactions" in ran and stages.elastic is not None:
         from trochoid.drives.precessional.turn import elastic_residual
 
         moved = stages.elastic
         off = elastic_residual(stages.reactions["elastic"], moved)
-        found.append(_check("elastic reactions on the casing sum to the members' inertia", off, BALANCE))
+        found.append(
+            Check.within("elastic reactions on the casing sum to the members' inertia", off, BALANCE)
+        )
         unmet = abs(moved.power - moved.loss) / moved.loss if moved.loss > 0.0 else 0.0
-        found.append(_check("work on the elastic motion is what damping takes", unmet, ENERGY))
+        found.append(Check.within("work on the elastic motion is what damping takes", unmet, ENERGY))
     return tuple(found)
 
 
@@ -112,7 +112,3 @@ def warnings(stages: Stages) -> Iterator[str]:
         from trochoid.drives.precessional.answers_contact import EDGE
 
         yield EDGE
-
-
-def _check(name: str, value: float, limit: float) -> Check:
-    return Check(name, value, limit, bool(value <= limit))

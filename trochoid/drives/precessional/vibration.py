@@ -10,10 +10,9 @@ from trochoid.drives.precessional.design import Design
 from trochoid.drives.precessional.elastic import Elastic
 from trochoid.drives.precessional.mechanism import PrecessionalDrive
 from trochoid.drives.precessional.turn import MODELS
-from trochoid.dynamics.casing import Casing, Mount
-from trochoid.dynamics.vibration import Point, Vibration
-from trochoid.dynamics.zones import Machine, Zone, zone
-from trochoid.kinematics.errors import TrochoidError
+from trochoid.drives.vibration import casing_of, zone_of
+from trochoid.dynamics.vibration import Vibration
+from trochoid.dynamics.zones import Zone
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,24 +35,12 @@ class CasingVibration:
 
 def vibration(design: Design, drive: PrecessionalDrive, elastic: Elastic | None = None) -> CasingVibration:
     """Shake the casing with the vector sum of all reactions on it; raises TrochoidError without a casing."""
-    table = design.scene.casing
-    if table is None:
-        raise TrochoidError("vibration needs the scene's [casing] table")
-    mounts = tuple(Mount(m.position, m.stiffness, m.damping) for m in table.mounts)
-    casing = Casing(table.mass, table.inertia, table.center, mounts)
-    points = tuple(Point(p.name, p.position) for p in table.points) or (Point("centre", table.center),)
+    casing, points = casing_of(design.scene)
     models = {
         name: casing_vibration(drive, design.speed, casing, points, model) for name, model in MODELS.items()
     }
     if elastic is not None:
         yielding = elastic.reactions(closed_record(drive))
         models["elastic"] = casing_vibration(drive, design.speed, casing, points, found=yielding)
-    speed = abs(design.output_speed)
-    machine = Machine(
-        design.scene.operation.output_torque * speed,
-        design.speed,
-        speed,
-        gear_unit=table.machine != "industrial_machine",
-        rigid_support=table.rigid_support,
-    )
-    return CasingVibration(models, zone(models["rigid" if elastic is None else "elastic"].rms_max, machine))
+    best = models["rigid" if elastic is None else "elastic"]
+    return CasingVibration(models, zone_of(design.scene, best, (design.speed, abs(design.output_speed))))

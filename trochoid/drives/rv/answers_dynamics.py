@@ -10,7 +10,7 @@ from trochoid.drives.rv.numbers import number
 from trochoid.drives.rv.reactions import Forces, Reactions
 from trochoid.drives.rv.spectrum import force_lines, order_of
 from trochoid.drives.rv.stages import Stages
-from trochoid.drives.vibration import CasingVibration
+from trochoid.drives.vibration import CasingVibration, velocity, zone_answer
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Parts, Quantity
 
@@ -106,13 +106,11 @@ def vibration_velocity(s: Stages) -> Quantity:
 
 def _velocity(s: Stages, model: str, point: int, axis: int | None, rigid: bool = False) -> Quantity:
     def get(found: CasingVibration) -> float:
-        rms = (found.rigid if rigid else found.elastic).rms[point]
-        return 1e3 * float(rms.max() if axis is None else rms[axis])
+        return velocity(found.rigid if rigid else found.elastic, point, axis)
 
     return number(s, get(s.vibration), s.vibration_levels.map(get), "mm/s", model)
 
 
 def vibration_zone(s: Stages) -> Quantity:
     """Zone by the standard that applies, or the statement that none does."""
-    zone = s.vibration.zone
-    return Quantity(zone.letter or "none applies", "", None, zone.standard, note=zone.reason)
+    return zone_answer(s.vibration.zone)

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from trochoid.drives.gathering import begun, timed
 from trochoid.drives.rv import headline
 from trochoid.drives.rv.plan import why
 from trochoid.drives.rv.stages import Stages
-from trochoid.results.outcome import Check, Outcome, Quantity, Stage
+from trochoid.results.outcome import Check, Outcome, Quantity
 
 BALANCE = 1e-9
 SUM = 1e-3  # of strips, whose tangent is not quite Hertz's
@@ -19,13 +20,12 @@ SUM = 1e-3  # of strips, whose tangent is not quite Hertz's
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but the figures' own."""
     ran = tuple(stages.clock.seconds)
-    made = Outcome(
-        scene=stages.scene.model_dump(mode="json"),
-        quantities=quantities,
-        not_needed=tuple(name for name in why(stages.scene) if name not in ran),
-        title=headline.title(stages),
-        facts=headline.facts(stages),
-        not_simulated=headline.not_simulated(stages.scene, "contact" in ran),
+    made = begun(
+        stages,
+        quantities,
+        why(stages.scene),
+        headline,
+        headline.not_simulated(stages.scene, "contact" in ran),
     )
     if "contact" in ran:
         made = replace(made, checks=checks(stages), warnings=warnings(stages))
@@ -43,8 +43,7 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
             )
     if "reactions" in ran:
         made = replace(made, notes={"Rigid and elastic reactions": stages.reactions.reason})
-    seconds = stages.clock.seconds
-    return replace(made, stages=tuple(Stage(name, seconds[name]) for name in seconds))
+    return timed(made, stages.clock)
 
 
 def checks(stages: Stages) -> tuple[Check, ...]:
@@ -70,7 +69,7 @@ def checks(stages: Stages) -> tuple[Check, ...]:
         found["reactions on the casing sum to the members' inertia"] = (stages.reactions.residual, BALANCE)
     if not np.isnan(split).any():
         found["compliances of the parts add up to the whole"] = (float(split.max()), SUM)
-    return tuple(Check(name, value, limit, bool(value <= limit)) for name, (value, limit) in found.items())
+    return tuple(Check.within(name, value, limit) for name, (value, limit) in found.items())
 
 
 def warnings(stages: Stages) -> tuple[str, ...]:
