@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from trochoid.kinematics.errors import TrochoidError
-from trochoid.results.vtk import COLLECTION
+from trochoid.results.vtk import ENDING, listed_files
 
 Body: TypeAlias = Any  # pyvista's grids and plotters; its decorators hide their types
 Plotter: TypeAlias = Any
@@ -61,15 +61,15 @@ def exaggeration(size: float, displacement: float) -> float:
 
 
 def _collection(folder: Path) -> Path:
-    collection = folder / COLLECTION
     if not folder.is_dir():
         raise TrochoidError(f"no folder {folder}; give the one that a run wrote, such as out/cycloid")
-    if not collection.is_file():
+    films = [path for path in sorted(folder.glob(f"*{ENDING}")) if listed_files(path)]
+    if not films:
         raise TrochoidError(
-            f"no {COLLECTION} in {folder}: fields are written for stress_max, where the drive offers it; all other "
+            f"no films in {folder}: bodies in space are written for stress_max, where the drive offers it; all other "
             "pictures are in report.html"
         )
-    return collection
+    return films[0]
 
 
 def _choose_window(screenshot: Path | None) -> None:

@@ -10,7 +10,7 @@ import pytest
 from tests.drives.khv_cases import EFFECTS
 from trochoid.clock import Clock
 from trochoid.drives.khv.headline import ABSENT_EFFECTS, NEVER_SIMULATED, facts, not_simulated, title
-from trochoid.drives.khv.picture import drawing, fields, turned_stress
+from trochoid.drives.khv.picture import drawing, stress_film, turned_stress
 from trochoid.drives.khv.stages import Stages
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import DrawingFrame
@@ -144,7 +144,7 @@ def test_fields_lie_where_discs_are_drawn(elastic: Stages) -> None:
 
     With the flange fixed discs circle without turning: the hole of output pin 1 stays 52 mm right of the centre.
     """
-    ((angle, bodies),) = fields(elastic)
+    ((angle, bodies),) = stress_film(elastic).frames
     assert angle == pytest.approx(np.radians(40))
     for body, sign in zip(bodies, (1, -1), strict=True):
         center = sign * 0.0025 * np.array([np.cos(angle), np.sin(angle)])
@@ -158,7 +158,7 @@ def test_fields_lie_where_discs_are_drawn(elastic: Stages) -> None:
 @pytest.mark.independent
 def test_von_mises_belongs_to_the_stress(elastic: Stages) -> None:
     """The equivalent stress of the turned tensor, by its usual formula, is the one that is given."""
-    ((_, bodies),) = fields(elastic)
+    ((_, bodies),) = stress_film(elastic).frames
     for body in bodies:
         xx, yy, zz, xy = body.point_data["stress"].T
         squares = 0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * xy**2

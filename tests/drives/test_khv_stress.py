@@ -10,7 +10,7 @@ import pytest
 
 from trochoid import Run
 from trochoid import load as scene_of
-from trochoid.drives.khv.picture import fields
+from trochoid.drives.khv.picture import stress_film
 from trochoid.results.outcome import Quantity
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "cycloid.toml"
@@ -48,15 +48,15 @@ def number(found: Run, *names: str) -> float:
 def test_answer_is_in_the_fields(model: str, fixed: str) -> None:
     """Largest value of the files, at the node and on the disc that the answer names, also where the ring turns."""
     found = run(model, f'drive.fixed="{fixed}"', "ask.stress_position=40")
-    ((_, bodies),) = fields(found.stages)
+    ((_, bodies),) = stress_film(found.stages).frames
     for name in ("von_mises", "max_shear"):
         body = bodies[int(number(found, name, "disc")) - 1]
         values = body.point_data[name]
-        node = int(np.argmax(np.where(np.isin(np.arange(len(values)), body.triangles), values, 0.0)))
+        node = int(np.argmax(np.where(np.isin(np.arange(len(values)), body.cells), values, 0.0)))
         assert number(found, name, "stress") == pytest.approx(1e-6 * values[node], rel=1e-12)
         place = [number(found, name, "x"), number(found, name, "y")]
         assert place == pytest.approx(list(1e3 * body.points[node, :2]), rel=1e-12)
-        assert max(b.point_data[name][np.unique(b.triangles)].max() for b in bodies) == values[node]
+        assert max(b.point_data[name][np.unique(b.cells)].max() for b in bodies) == values[node]
 
 
 @pytest.mark.published

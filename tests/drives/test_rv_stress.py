@@ -9,7 +9,7 @@ import pytest
 
 from tests.drives.rv_cases import drive, level_of, part, whole
 from trochoid.drives.rv.field import DiscStress, disc_stresses
-from trochoid.drives.rv.picture import fields
+from trochoid.drives.rv.picture import stress_film
 from trochoid.drives.rv.series import solve_at
 from trochoid.drives.rv.teeth import nominal_tooth_force, root_stress, teeth
 
@@ -24,16 +24,16 @@ def stresses() -> tuple[DiscStress, ...]:
 def test_answer_is_in_the_fields() -> None:
     """Largest value of the files, at the node and on the disc that the answer names; bores lie round the orbits."""
     at = whole()
-    ((angle, bodies),) = fields(at.stages)
+    ((angle, bodies),) = stress_film(at.stages).frames
     assert angle == pytest.approx(np.radians(200))
     for name in ("von_mises", "max_shear"):
         body = bodies[int(part(at.stress_max, name, "disc")) - 1]
         values = body.point_data[name]
-        node = int(np.argmax(np.where(np.isin(np.arange(len(values)), body.triangles), values, 0.0)))
+        node = int(np.argmax(np.where(np.isin(np.arange(len(values)), body.cells), values, 0.0)))
         assert part(at.stress_max, name, "stress") == pytest.approx(1e-6 * values[node], rel=1e-12)
         place = [part(at.stress_max, name, "x"), part(at.stress_max, name, "y")]
         assert place == pytest.approx(list(1e3 * body.points[node, :2]), rel=1e-9)
-        assert max(b.point_data[name][np.unique(b.triangles)].max() for b in bodies) == values[node]
+        assert max(b.point_data[name][np.unique(b.cells)].max() for b in bodies) == values[node]
     drawn = at.stages.design
     for i, body in enumerate(bodies):  # discs lie where they orbit
         turn = float(drawn.speeds.members["planet"]) * angle + drawn.discs[i].crank

@@ -15,6 +15,7 @@ from trochoid.results import (
     Drawing,
     DrawingFrame,
     Field,
+    Film,
     Line,
     Outcome,
     Quantity,
@@ -352,7 +353,13 @@ def build(
             Check("period of the pin forces", 2.4e-7, 1e-6, True),
         ),
         dataset=dataset(positions),
-        fields=tuple((p, bodies(p, around, across)) for p in np.linspace(0.0, 0.3, field_frames)),
+        films=(
+            Film(
+                "fields",
+                "Stress",
+                tuple((p, bodies(p, around, across)) for p in np.linspace(0.0, 0.3, field_frames)),
+            ),
+        ),
         drawing=Drawing(tuple(frame(p) for p in np.linspace(0.0, 2 * np.pi, frames, endpoint=False))),
         notes={
             "rigid against elastic": "The elastic ones carry the mesh frequency, for the stiffness varies."

@@ -34,7 +34,7 @@ drawing = pytest.mark.skipif(not _can_draw(), reason="off-screen drawing needs l
 @pytest.fixture(scope="module")
 def folder(outcome: Outcome, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("fields")
-    vtk.save(outcome.fields, folder)
+    vtk.save(outcome.films[0], folder)
     return folder
 
 
@@ -47,14 +47,14 @@ def _reader(folder: Path) -> Any:
 def test_vtk_reads_the_same_arrays(outcome: Outcome, folder: Path) -> None:
     """Points, cells and nodal data of every frame and body, float64, in SI."""
     reader = _reader(folder)
-    for index, (angle, bodies) in enumerate(outcome.fields):
+    for index, (angle, bodies) in enumerate(outcome.films[0].frames):
         assert reader.time_values[index] == pytest.approx(math.degrees(angle), abs=1e-9)
         reader.set_active_time_point(index)
         blocks = reader.read()
         assert len(blocks) == len(bodies)
         for block, body in zip(blocks, bodies, strict=True):
             np.testing.assert_array_equal(block.points, body.points)
-            np.testing.assert_array_equal(block.cells.reshape(-1, 7)[:, 1:], body.triangles.T)
+            np.testing.assert_array_equal(block.cells.reshape(-1, 7)[:, 1:], body.cells.T)
             assert set(block.celltypes) == {22}  # VTK_QUADRATIC_TRIANGLE
             assert block["displacement"].dtype == np.float64
             np.testing.assert_array_equal(block["displacement"][:, :2], body.point_data["displacement"])
@@ -163,7 +163,7 @@ def test_view_saves_a_picture(folder: Path, tmp_path: Path) -> None:
 @pytest.mark.exact
 def test_view_without_fields_says_what_to_do(tmp_path: Path) -> None:
     """No fields, one clear sentence."""
-    with pytest.raises(TrochoidError, match=r"no fields\.pvd in .*stress_max"):
+    with pytest.raises(TrochoidError, match=r"no films in .*stress_max"):
         view(tmp_path)
 
 

@@ -36,13 +36,14 @@ def small(build_outcome: Callable[..., Outcome]) -> Outcome:
 def _other(outcome: Outcome) -> Outcome:
     """The outcome of a later run: another number in every file, fewer fields."""
     assert outcome.dataset is not None
-    angle, bodies = outcome.fields[0]
+    film = outcome.films[0]
+    angle, bodies = film.frames[0]
     return replace(
         outcome,
         title="another",
         quantities={"mass": Quantity(1.0, "kg")},
         dataset=outcome.dataset * 2.0,
-        fields=((angle + 1.0, bodies[:1]),),
+        films=(replace(film, frames=((angle + 1.0, bodies[:1]),)),),
     )
 
 

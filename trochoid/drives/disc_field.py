@@ -12,7 +12,7 @@ from trochoid.fem.pair import rotation
 from trochoid.fem.stress import Press
 from trochoid.fem.stress_field import StressField, stress_field
 from trochoid.kinematics.types import Array, frozen
-from trochoid.results.outcome import Field
+from trochoid.results.film import Field
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,13 +1,13 @@
 """What a run found: as values, as files, on the terminal."""
 
 from trochoid.results.document import to_json
+from trochoid.results.film import Field, Film
 from trochoid.results.folder import prepare
 from trochoid.results.outcome import (
     Arrow,
     Check,
     Drawing,
     DrawingFrame,
-    Field,
     Line,
     Outcome,
     Parts,
@@ -25,6 +25,7 @@ __all__ = [
     "Drawing",
     "DrawingFrame",
     "Field",
+    "Film",
     "Line",
     "Outcome",
     "Parts",

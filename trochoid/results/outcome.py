@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias, Union
 
-from trochoid.kinematics.types import Array, IntArray
+from trochoid.kinematics.types import Array
+from trochoid.results.film import Film
 from trochoid.results.plot import Plot
 
 if TYPE_CHECKING:
@@ -62,20 +63,6 @@ class Stage:
 
 
 @dataclass(frozen=True, slots=True)
-class Field:
-    """State of one plane body for VTK.
-
-    `points` (n,2|3) m; `triangles` (6,m): vertices 0 1 2, then mid nodes of edges 01, 12, 02 (scikit-fem);
-    `point_data`: scalars (n,), vectors (n,2|3), and "stress" (n,4) xx yy zz xy or (n,6) xx yy zz xy yz xz.
-    """
-
-    name: str
-    points: Array
-    triangles: IntArray
-    point_data: Mapping[str, Array] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True)
 class Line:
     """A polyline of the drawing: `xy` (n,2) m.
 
@@ -116,18 +103,15 @@ class Drawing:
     frames: tuple[DrawingFrame, ...]
 
 
-FieldFrame: TypeAlias = tuple[float, tuple[Field, ...]]
-
-
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """All that a run found, ready for `results.write`.
 
     `scene`: as used, SI. `not_needed`: stages that were not run. `dataset`: coordinates and variables in SI,
     attrs `units`, `long_name` and, when plotted, `figure` (its title), optional `plot` ("line", "heatmap"),
-    `scale` ("log"), `caption`. `plots`: pictures of their own. `fields`: per frame the input angle (rad) and the
-    bodies. `notes`: heading → sentence. `facts`: main data for the head of the report. `not_simulated`: effect →
-    what its absence means.
+    `scale` ("log"), `caption`. `plots`: pictures of their own. `films`: bodies in space, for VTK.
+    `notes`: heading → sentence. `facts`: main data for the head of the report. `not_simulated`: effect → what its
+    absence means.
     """
 
     scene: Mapping[str, Any]
@@ -137,7 +121,7 @@ class Outcome:
     warnings: tuple[str, ...] = ()
     checks: tuple[Check, ...] = ()
     dataset: xarray.Dataset | None = None
-    fields: tuple[FieldFrame, ...] = ()
+    films: tuple[Film, ...] = ()
     drawing: Drawing | None = None
     plots: tuple[Plot, ...] = ()
     notes: Mapping[str, str] = field(default_factory=dict)

@@ -1,10 +1,10 @@
-"""Fields as VTK files: a .vtu of quadratic triangles per body and frame, and a .pvd of all of them."""
+"""Films as VTK files: a .vtu per body and frame, and a .pvd that collects them."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -12,45 +12,52 @@ from xml.etree import ElementTree
 import numpy as np
 
 from trochoid.kinematics.types import Array
-from trochoid.results.outcome import Field, FieldFrame
+from trochoid.results.film import Field, Film
 
-COLLECTION = "fields.pvd"
-FOLDER = "fields"
+ENDING = ".pvd"
 
 
-def save(frames: Sequence[FieldFrame], folder: Path) -> None:
-    """Write `fields/<body>_<frame>.vtu` and `fields.pvd`, with the input angle in degrees as time."""
-    (folder / FOLDER).mkdir()
+def save(film: Film, folder: Path) -> None:
+    """Write `<film>/<body>_<frame>.vtu` and `<film>.pvd`, with the axis as time: angles in degrees."""
+    (folder / film.name).mkdir()
     collection: list[dict[str, str]] = []
-    for index, (angle, bodies) in enumerate(frames):
+    for index, (value, bodies) in enumerate(film.frames):
+        time = math.degrees(value) if film.axis.units == "rad" else value
         for part, body in enumerate(bodies):
-            name = f"{FOLDER}/{_file_name(body.name)}_{index:03d}.vtu"
+            name = f"{film.name}/{_file_name(body.name)}_{index:03d}.vtu"
             save_body(body, folder / name)
-            collection.append(
-                {"timestep": repr(round(math.degrees(angle), 9)), "part": str(part), "file": name}
-            )
-    _save_collection(collection, folder / COLLECTION)
+            collection.append({"timestep": repr(round(time, 9)), "part": str(part), "file": name})
+    _save_collection(collection, folder / f"{film.name}{ENDING}")
 
 
 def save_body(body: Field, path: Path) -> None:
-    """Write one body: its nodes, quadratic triangles and nodal data (float64, SI)."""
+    """Write one body: its nodes, cells and nodal data (float64, SI)."""
     import meshio
 
-    # scikit-fem's mid nodes of edges 01, 12, 02 are VTK's of 01, 12, 20
-    cells: list[tuple[str, Any]] = [("triangle6", np.ascontiguousarray(body.triangles.T))]
+    cells: list[tuple[str, Any]] = [(body.shape, np.ascontiguousarray(body.cells.T))]
     data = {name: _columns(name, values) for name, values in body.point_data.items()}
     mesh = meshio.Mesh(_padded(body.points), cells, point_data=data)
     meshio.vtu.write(str(path), mesh, binary=True, compression=None)
 
 
+def saved(folder: Path) -> Iterator[Path]:
+    """Yield the collections in a folder that are ours, and the .vtu files that they name."""
+    for collection in sorted(folder.glob(f"*{ENDING}")):
+        files = listed_files(collection)
+        if files:
+            yield collection
+            yield from files
+
+
 def listed_files(collection: Path) -> tuple[Path, ...]:
-    """Return the .vtu files in `fields/` that a .pvd of ours names; none if there is no such .pvd."""
+    """Return the .vtu files that a .pvd of ours names, in the folder of its name; none if it is not ours."""
     try:
         sets = ElementTree.parse(collection).getroot().iter("DataSet")
     except (OSError, ElementTree.ParseError):
         return ()
     names = {entry.get("file", "") for entry in sets}
-    return tuple(sorted(collection.parent / n for n in names if re.fullmatch(rf"{FOLDER}/[^/\\]+\.vtu", n)))
+    ours = re.compile(rf"{re.escape(collection.stem)}/[^/\\]+\.vtu")
+    return tuple(sorted(collection.parent / name for name in names if ours.fullmatch(name)))
 
 
 def _columns(name: str, values: Array) -> Array:

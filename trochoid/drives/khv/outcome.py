@@ -34,15 +34,15 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
 
 
 def _pictures(stages: Stages, ran: tuple[str, ...]) -> dict[str, Any]:
-    """Return series, drawing and fields of the solved contacts."""
+    """Return series, drawing and films of the solved contacts."""
     with stages.clock.stage("figures"):
         from trochoid.drives.khv.dataset import dataset
-        from trochoid.drives.khv.picture import drawing, fields
+        from trochoid.drives.khv.picture import drawing, stress_film
 
         return {
             "dataset": dataset(stages, ran),
             "drawing": drawing(stages),
-            "fields": fields(stages) if "stress" in ran else (),
+            "films": (stress_film(stages),) if "stress" in ran else (),
             "plots": tuple(_plots(stages, ran)),
         }
 

@@ -13,9 +13,10 @@ from trochoid.drives.khv.stages import Stages
 from trochoid.drives.paths import Path, framed
 from trochoid.kinematics.motion import PlaneMotion, khv_motions
 from trochoid.kinematics.types import Array, frozen
-from trochoid.results.outcome import Arrow, Drawing, FieldFrame
+from trochoid.results.film import Film
+from trochoid.results.outcome import Arrow, Drawing
 
-__all__ = ["drawing", "fields", "ring_angle", "turned", "turned_stress"]
+__all__ = ["drawing", "ring_angle", "stress_film", "turned", "turned_stress"]
 
 FLANK_POINTS = 760
 SMALL, LARGE = 48, 120  # points of a circle
@@ -117,12 +118,12 @@ def _arrows(stages: Stages, position: int) -> Iterator[Arrow]:
             yield Arrow(frozen(points[i, k]), frozen(vectors[i, k]), _name(i), f"{name} {k + 1}")
 
 
-def fields(stages: Stages) -> tuple[FieldFrame, ...]:
+def stress_film(stages: Stages) -> Film:
     """Return the discs' displacement and stress at the asked position, at their axial places."""
     states = stages.field.fine
     turn = float(ring_angle(stages.design, np.array(states[0].angle)))
     bodies = tuple(disc_field(_name(i), state, turn) for i, state in enumerate(states))
-    return ((states[0].angle, bodies),)
+    return Film("fields", "Stress and displacement of the discs", ((states[0].angle, bodies),))
 
 
 def ring_angle(design: Design, angle: Array) -> Array:

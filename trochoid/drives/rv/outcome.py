@@ -32,14 +32,14 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     if "geometry" in ran:
         with stages.clock.stage("figures"):
             from trochoid.drives.rv.dataset import dataset
-            from trochoid.drives.rv.picture import drawing, fields, plots
+            from trochoid.drives.rv.picture import drawing, plots, stress_film
 
             made = replace(
                 made,
                 dataset=dataset(stages, ran),
                 drawing=drawing(stages),
                 plots=plots(stages.design),
-                fields=fields(stages) if "stress" in ran else (),
+                films=(stress_film(stages),) if "stress" in ran else (),
             )
     if "reactions" in ran:
         made = replace(made, notes={"Rigid and elastic reactions": stages.reactions.reason})

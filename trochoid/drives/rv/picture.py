@@ -15,7 +15,8 @@ from trochoid.drives.rv.stages import Stages
 from trochoid.kinematics.involute_curve import GearCurve
 from trochoid.kinematics.motion import PlaneMotion, flange_lead
 from trochoid.kinematics.types import Array, frozen
-from trochoid.results.outcome import Arrow, Drawing, FieldFrame
+from trochoid.results.film import Film
+from trochoid.results.outcome import Arrow, Drawing
 from trochoid.results.plot import Axis, Plot, PlotCurve
 
 FLANK_POINTS, TOOTH_POINTS = 780, 24
@@ -139,12 +140,12 @@ def carrier_angle(design: Design, angle: float) -> float:
     return float(design.speeds.members["carrier"]) * angle
 
 
-def fields(stages: Stages) -> tuple[FieldFrame, ...]:
+def stress_film(stages: Stages) -> Film:
     """Return the discs' displacement and stress at the asked position, at their axial places."""
     states = [disc.state for disc in stages.field.fine]
     turn = carrier_angle(stages.design, states[0].angle)
     bodies = tuple(disc_field(_name(i), state, turn) for i, state in enumerate(states))
-    return ((states[0].angle, bodies),)
+    return Film("fields", "Stress and displacement of the discs", ((states[0].angle, bodies),))
 
 
 def cage_turn(design: Design, angles: Array) -> Array:
