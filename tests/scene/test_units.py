@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from trochoid.scene import units
-from trochoid.scene.units import FAMILIES, Family, read
+from trochoid.scene.reading import read
+from trochoid.scene.units import FAMILIES, Family
 
 FOOT, POUND, GRAVITY = 0.3048, 0.45359237, 9.80665  # exact by definition, NIST SP 811 (2008), appendix B.8
 
@@ -148,9 +149,9 @@ def test_pint_is_imported_only_for_foreign_units() -> None:
     """Numbers and default units cost no import of pint."""
     program = """if True:
         import sys
-        from trochoid.scene import units
-        units.read("64 mm", units.LENGTH), units.read(3, units.ANGLE)
+        from trochoid.scene import reading, units
+        reading.read("64 mm", units.LENGTH), reading.read(3, units.ANGLE)
         assert "pint" not in sys.modules
-        units.read("1 in", units.LENGTH)
+        reading.read("1 in", units.LENGTH)
         assert "pint" in sys.modules"""
     subprocess.run([sys.executable, "-c", program], check=True)

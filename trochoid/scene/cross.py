@@ -21,6 +21,7 @@ from trochoid.scene.needs import (
     QUANTITIES,
     UNDER_TORQUE,
 )
+from trochoid.scene.reading import read
 
 Found: TypeAlias = tuple[Key, str]
 
@@ -200,7 +201,7 @@ def _quantity(raw: Mapping[str, Any], kind: str, name: str, effects: set[str]) -
 
 def _no_torque(given: object) -> bool:
     with suppress(ValueError):
-        return units.read(given, units.TORQUE) == 0.0
+        return read(given, units.TORQUE) == 0.0
     return False
 
 

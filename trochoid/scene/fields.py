@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from trochoid.faults import shown
-from trochoid.scene import units
+from trochoid.scene import reading, units
 from trochoid.scene.units import Family
 
 FAULT = "scene"  # the type of our own pydantic errors, whose text is ready to be read
@@ -64,7 +64,7 @@ class Measure:
     def read(self, value: object) -> float:
         """Return `value` in SI; raises a ready fault."""
         try:
-            si = units.read(value, self.family)
+            si = reading.read(value, self.family)
         except ValueError as error:
             raise fault(str(error)) from None
         number = self.family.from_si(si)
