@@ -3,7 +3,8 @@
 The data flow, for one record of equally spaced positions (one input turn, or any other period):
 
     loads on a shaft, rotating masses ──► newton_euler ──► support reactions of rigid members
-    quasi-static motion, M, K(φ) ──► elastic ──► Response ──► supports ──► what elasticity adds to them
+    quasi-static motion, M, K(φ) ──► elastic (hill: all harmonics) ──► Response ──► supports ──► what elasticity adds
+                            └──► floquet: is it stable?         └──► work: does its energy balance?
     all that members put on the casing ──► wrench ──► casing (mounts) ──► Vibration ──► zones ──► Zone
                                              └──► balance: the sum of reactions is the sum of inertia forces
 

@@ -2,24 +2,24 @@
 
 A planet carrier is where planets, cranks and discs repeat their motion, so in its frame their elastic motion w is
 periodic and their stiffness K(φ) known.  It turns with Ω, and a mass that moves in it has the acceleration
-ẅ + 2Ω ẑ × ẇ − Ω² w.  What that adds to ẅ goes into the motion that `elastic.respond` is given: a linear problem for w.
-Left out is Ω² times the mean of w, a load that stands still and is as small as the mean is to the radii.
+ẅ + 2Ω ẑ × ẇ − Ω² w.  Bearings and teeth turn with the frame, and so does the damping that they are given.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from trochoid.dynamics.elastic import Response, respond
-from trochoid.dynamics.spectrum import harmonics, highest_harmonic, synthesize
+from trochoid.dynamics.elastic import Frame, Response, respond
+from trochoid.dynamics.floquet import fail_if_growing
+from trochoid.dynamics.hill import rate, varied
+from trochoid.dynamics.work import unmet
 from trochoid.dynamics.wrench import Wrench, couple, total, wrench
-from trochoid.kinematics.errors import NotConverged, TrochoidError
-from trochoid.kinematics.types import Array, ComplexArray, frozen
+from trochoid.kinematics.errors import TrochoidError
+from trochoid.kinematics.types import Array, frozen
 
-STEPS, TIGHT, SETTLED = 60, 1e-12, 1e-8  # of the iteration; of the motion: sought, and accepted
 ACROSS = np.array([[0.0, -1.0], [1.0, 0.0]])  # ẑ × of x, y
 
 
@@ -39,18 +39,28 @@ class Mass:
 @dataclass(frozen=True, eq=False, slots=True)
 class Carried:
     """Elastic motion in the frame: the `response`, and of each of the p masses d'Alembert's `forces` (n, p, 2) in N and
-    `moments` (n, p) in N·m about z.
+    `moments` (n, p) in N·m about z.  `work`: what the work of the masses' inertia and of all springs on the motion
+    differs from what damping takes, relative.
     """
 
     response: Response
     forces: Array
     moments: Array
+    work: float
 
 
 def mass_matrix(masses: Sequence[Mass]) -> Array:
     """Return the matrix (k, k) of masses and moments of inertia."""
     made = [m.mass * m.moves.T @ m.moves + m.inertia * np.outer(m.turns, m.turns) for m in masses]
     return np.asarray(np.sum(made, axis=0))
+
+
+def carried_frame(masses: Sequence[Mass], speed: float) -> Frame:
+    """Return what a frame adds that turns with `speed`, rad/s."""
+    gyroscopic = 2.0 * speed * np.sum([m.mass * m.moves.T @ ACROSS @ m.moves for m in masses], axis=0)
+    centrifugal = -(speed**2) * np.sum([m.mass * m.moves.T @ m.moves for m in masses], axis=0)
+    none = frozen(np.zeros_like(centrifugal))
+    return Frame(frozen(gyroscopic), frozen(centrifugal), none, ", seen from the carrier")
 
 
 def respond_carried(
@@ -60,95 +70,55 @@ def respond_carried(
     speed: float,
     frame_speed: float,
     damping_ratio: float = 0.02,
+    named: Array | None = None,
 ) -> Carried:
     """Return the response to a quasi-static `motion` (n, k), periodic with the angular `speed` in the frame, rad/s.
 
-    The frame turns with `frame_speed` (rad/s, either sign); stiffness and damping as in `respond`.  Raises for a
-    coordinate without mass; NotConverged where no motion is found.
+    The frame turns with `frame_speed` (rad/s, either sign); stiffness, damping and
+    `named` as in `respond`.  Raises for a
+    coordinate without mass; NotConverged where no motion is found, and where the varying stiffness excites itself.
     """
     mass = mass_matrix(masses)
     if np.linalg.eigvalsh(mass)[0] <= 0.0:
         raise TrochoidError("carried members: every coordinate needs a mass or a moment of inertia")
-    order: Array = speed * np.arange(1.0, highest_harmonic(len(motion)) + 1.0)[:, None]
-    carry = _carry(masses, mass, order, frame_speed)
-
-    def answer(given: Array) -> Response:
-        return respond(given, mass, stiffness, speed, damping_ratio)
-
-    plain = answer(motion)
-    if frame_speed == 0.0:
-        return _gathered(motion, masses, plain, order, frame_speed)
-    whole = _solved(motion + plain.correction, lambda w: answer(carry(w)).correction)
-    found = answer(motion + carry(whole))
-    left = np.abs(motion + found.correction - whole).max()
-    if not left <= SETTLED * np.abs(whole).max():
-        raise NotConverged(
-            f"reactions: the frame turns with {frame_speed:.4g} rad/s, and the elastic motion in it was not found; "
-            "lower operation.input_speed or raise operation.damping_ratio"
+    frame = carried_frame(masses, frame_speed)
+    found = respond(motion, mass, stiffness, speed, damping_ratio, frame if frame_speed else None, named)
+    if stiffness.ndim == 3:
+        fail_if_growing(
+            mass,
+            found.damper + frame.gyroscopic,
+            stiffness + frame.centrifugal,
+            speed,
+            "the stiffness of the contacts, which varies over the turn,",
         )
-    return _gathered(motion, masses, found, order, frame_speed)
-
-
-def _solved(first: Array, added: Callable[[Array], Array]) -> Array:
-    """Solve w = first + added(w) for records (n, k), `added` being linear."""
-    from scipy.sparse.linalg import LinearOperator, gmres
-
-    scale = float(np.abs(first).max(initial=0.0))
-    if scale == 0.0:
-        return first
-
-    def moved(flat: Array) -> Array:
-        return np.asarray(flat - added(flat.reshape(first.shape)).ravel())
-
-    operator = LinearOperator((first.size, first.size), matvec=moved, dtype=np.float64)
-    found, _ = gmres(operator, first.ravel() / scale, rtol=TIGHT, restart=STEPS, maxiter=1)
-    return np.asarray(scale * found.reshape(first.shape))
-
-
-def _carry(masses: Sequence[Mass], mass: Array, order: Array, speed: float) -> Callable[[Array], Array]:
-    """Return what turning adds to a motion (n, k), as a motion of the same inertia."""
-    coriolis = np.linalg.solve(mass, np.sum([m.mass * m.moves.T @ ACROSS @ m.moves for m in masses], axis=0))
-    central = np.linalg.solve(mass, np.sum([m.mass * m.moves.T @ m.moves for m in masses], axis=0))
-
-    def added(motion: Array) -> Array:
-        lines = harmonics(motion)[1:]
-        acceleration = 2.0j * speed * order * (lines @ coriolis.T) - speed**2 * (lines @ central.T)
-        return _series(-acceleration / order**2, len(motion))
-
-    return added
-
-
-def _series(lines: ComplexArray, positions: int) -> Array:
-    """Return the record (positions, k) without a mean of lines (nh, k)."""
-    return synthesize(np.concatenate([np.zeros_like(lines[:1]), lines]), positions)
+    return _gathered(masses, found, stiffness, speed, frame_speed)
 
 
 def _gathered(
-    motion: Array, masses: Sequence[Mass], response: Response, order: Array, speed: float
+    masses: Sequence[Mass], found: Response, stiffness: Array, speed: float, frame_speed: float
 ) -> Carried:
-    """Gather the true motion, its acceleration in the frame and what inertia makes of it."""
-    count, moved = len(motion), harmonics(motion + response.correction)[1:]
-    bent, velocity = _series(-(order**2) * moved, count), _series(1.0j * order * moved, count)
-    swing = _series(moved, count)
-    forces, moments = [], []
-    inertia = np.zeros_like(motion)
+    """Say what the true motion's inertia makes of every mass, from its acceleration in fixed space."""
+    velocity = rate(found.motion, speed)
+    bent = rate(found.motion, speed, 2)
+    swing = found.motion if frame_speed else 0.0 * found.motion
+    forces, moments, powers = [], [], []
     for m in masses:
         fixed = (
-            bent @ m.moves.T + 2.0 * speed * velocity @ m.moves.T @ ACROSS.T - speed**2 * swing @ m.moves.T
+            bent @ m.moves.T
+            + 2.0 * frame_speed * velocity @ m.moves.T @ ACROSS.T
+            - frame_speed**2 * swing @ m.moves.T
         )
         forces.append(-m.mass * fixed)
         moments.append(-m.inertia * (bent @ m.turns))
-        inertia += forces[-1] @ m.moves + moments[-1][:, None] * m.turns
-    amplitudes = moved.copy()
-    amplitudes.setflags(write=False)
-    whole = replace(
-        response,
-        motion=frozen(motion + response.correction),
-        acceleration=frozen(bent),
-        inertia=frozen(inertia),
-        amplitudes=amplitudes,
+        powers.append(forces[-1] @ m.moves + moments[-1][:, None] * m.turns)
+    y = found.correction
+    springs = varied(stiffness, y) if stiffness.ndim == 3 else y @ stiffness.T
+    return Carried(
+        found,
+        frozen(np.stack(forces, axis=1)),
+        frozen(np.stack(moments, axis=1)),
+        unmet(found.velocity, (*powers, -springs), found.loss),
     )
-    return Carried(whole, frozen(np.stack(forces, axis=1)), frozen(np.stack(moments, axis=1)))
 
 
 def inertia_wrench(masses: Sequence[Mass], found: Carried) -> Wrench:

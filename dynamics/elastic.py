@@ -1,53 +1,75 @@
 """Stiffness-aware motion: what the inertia of elastic members adds to their quasi-static motion.
 
 Members that yield under the rotating loads do not stay on their rigid paths.  With q the quasi-static
-motion, the motion q + y obeys M (q̈ + ÿ) + C ẏ + K(φ) y = 0: the moving mass adds inertia forces, and where a
-harmonic comes near a natural frequency it is amplified.  That is the whole difference between rigid and
-elastic reactions; it falls with 1/K.  Coordinates lie along axes that do not turn.  C is modal; each spring
-takes the part of it that belongs to its share of K̄, y + T ẏ with C = K̄ T, so that forces and inertia
-balance exactly.
+motion, w = q + y obeys
+
+    M ẅ + G ẇ + K_c w + C (ẏ + R y) + K(φ) y = 0
+
+in a frame in which K(φ) varies little: G, K_c and R are what its turning adds (dynamics.turning), nothing where it
+stands.  The moving mass adds inertia forces, and where a harmonic comes near a natural frequency it is amplified.  That
+is the whole difference between rigid and elastic reactions; it falls with 1/K.  C is modal; each spring takes the part
+of it that belongs to its share of K̄, y + T (ẏ + R y) with C = K̄ T, so that forces and inertia balance exactly.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from trochoid.dynamics.modes import FrequencyResponse, natural_modes
+from trochoid.dynamics.hill import rate, steady
+from trochoid.dynamics.modes import FrequencyResponse, Modes, natural_modes
 from trochoid.dynamics.spectrum import harmonics, synthesize
-from trochoid.kinematics.errors import NotConverged, TrochoidError
+from trochoid.dynamics.system import System
+from trochoid.dynamics.whirl import whirl
+from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, ComplexArray, frozen
 
-COUPLED = 60  # harmonics that the variation of the stiffness may couple: 1500 Hz at 1500 rpm
-DENSE = 3000  # unknowns up to which a varying stiffness is solved directly when iterating fails
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Frame:
+    """What a turning frame adds, (n, n) each: skew `gyroscopic` G, symmetric `centrifugal` K_c, and the `rate` R by
+    which a velocity that damping feels is ẏ + R y; 0 where what damps turns with the frame.  `seen` says from where, as
+    in ", seen from the eccentric".
+    """
+
+    gyroscopic: Array
+    centrifugal: Array
+    rate: Array
+    seen: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Resonance:
-    """The excited mode with the largest amplification: `factor` = |spring force / its quasi-static value|."""
+    """The excited mode with the largest amplification: `factor` = |spring force / its quasi-static value|.
+
+    Frequencies in Hz, `seen` from the frame of the response.
+    """
 
     harmonic: int
     frequency: float
     natural_frequency: float
     factor: float
+    seen: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Response:
-    """Motion of elastic members over one record of n_pos positions, n coordinates.
+    """Motion of elastic members over one record of n_pos positions, n coordinates, along the axes of the frame.
 
-    `motion` = q + y, `correction` = y, `spring_correction` = y + T ẏ (deflection whose springs give the
-    force with damping), `acceleration` = q̈ + ÿ and `inertia` = −M (q̈ + ÿ) = K y + K̄ T ẏ, all (n_pos, n).
-    `frequencies` (nh,) Hz and peak `amplitudes` (nh, n) of the motion for harmonics 1…nh,
-    `natural_frequencies` (n,) Hz.  `stiffness_variation` is the largest relative departure of K(φ) from its
-    mean, `variation_effect` how much of the motion y comes from it, relative.
+    `motion` = q + y, `correction` = y, `spring_correction` = y + T (ẏ + R y) (deflection whose springs give the
+    force with damping), `velocity` = ẏ; `acceleration` M⁻¹ (M ẅ + G ẇ + K_c w), with that of the frame, and `inertia`,
+    −M times it, = K y + K̄ T (ẏ + R y), all (n_pos, n).  `frequencies` (nh,) Hz and peak `amplitudes` (nh, n) of the
+    motion for harmonics 1…nh, `natural_frequencies` (n,) Hz of the frame at standstill.  `stiffness_variation` is the
+    largest relative departure of K(φ) from its mean, `variation_effect` how much of the motion y comes from it,
+    relative.  `damper` C (n, n); `loss` W, what it takes on average.
     """
 
     motion: Array
     correction: Array
     spring_correction: Array
+    velocity: Array
     acceleration: Array
     inertia: Array
     frequencies: Array
@@ -56,48 +78,81 @@ class Response:
     resonance: Resonance | None
     stiffness_variation: float
     variation_effect: float
+    damper: Array
+    loss: float
     warnings: tuple[str, ...]
 
 
 def respond(
-    motion: Array, mass: Array, stiffness: Array, speed: float, damping_ratio: float = 0.02
+    motion: Array,
+    mass: Array,
+    stiffness: Array,
+    speed: float,
+    damping_ratio: float = 0.02,
+    frame: Frame | None = None,
+    named: Array | None = None,
 ) -> Response:
     """Return the response to a quasi-static `motion` (n_pos, n), periodic with the angular `speed` in rad/s.
 
-    `mass` (n, n); `stiffness` (n, n) or (n_pos, n, n); `damping_ratio` of every mode of the mean stiffness.
-    Free modes are allowed: no net force acts on them, so their harmonics vanish.  Raises for speed ≤ 0, fewer
-    than 3 positions, bad matrices, and resonance without damping; NotConverged where a stiffness that varies
-    excites itself.
+    `mass` (n, n); `stiffness` (n, n) or (n_pos, n, n); `damping_ratio` of every mode of the mean stiffness at
+    standstill; `frame`: the one along whose axes all of it is; `named` (n, n): the stiffness whose modes a resonance is
+    named by, the mean where it is None.  Free modes are allowed: no net force acts on them, so
+    their harmonics vanish.  Raises for speed ≤ 0, fewer than 3 positions, bad matrices, and resonance without damping;
+    NotConverged where a stiffness that varies leaves no steady motion.
     """
     q, stiffnesses = _checked(motion, stiffness, speed, damping_ratio)
-    mean = stiffnesses.mean(axis=0)
+    mean, mass = stiffnesses.mean(axis=0), np.asarray(mass, dtype=np.float64)
     basis = natural_modes(mass, mean)
-    still = harmonics(q)[1:]
-    order: Array = speed * np.arange(1.0, len(still) + 1.0)
-    answer = FrequencyResponse(basis, order, damping_ratio)
-    first = _series(answer.to((order[:, None] ** 2) * (still @ np.asarray(mass))) @ basis.shapes.T, len(q))
-    correction = first if len(stiffnesses) == 1 else _coupled(answer, stiffnesses - mean, first)
-    lines = harmonics(correction)
-    y = lines[1:]
-    springs = ((y @ np.asarray(mass) @ basis.shapes) * answer.spring_factor()) @ basis.shapes.T
-    resonance = _strongest(answer, still, np.asarray(mass))
-    amplitudes = np.array(still + y)
+    none = np.zeros_like(mass)
+    turns = Frame(none, none, none) if frame is None else frame
+    damper, delay = modal_damper(mass, basis, damping_ratio)
+    lines = harmonics(q)
+    lines[0] *= 0.0 if frame is None else 1.0
+    still = synthesize(lines, len(q))
+
+    def inertia(record: Array) -> Array:
+        turned = rate(record, speed) @ turns.gyroscopic.T + record @ turns.centrifugal.T
+        return -rate(record, speed, 2) @ mass - turned
+
+    velocity_matrix = damper + turns.gyroscopic
+    aside = turns.centrifugal + damper @ turns.rate
+    load = inertia(still)
+    first = steady(mass, velocity_matrix, (mean + aside)[None], load, speed)
+    correction = first
+    if len(stiffnesses) > 1:
+        correction = steady(mass, velocity_matrix, stiffnesses + aside, load, speed)
+    velocity = rate(correction, speed)
+    felt = velocity + correction @ turns.rate.T
+    named_by = mean if named is None else np.asarray(named)
+    own = basis if named is None else natural_modes(mass, named_by)
+    resonance = _strongest(mass, named_by, own, frame, lines, speed, damping_ratio)
+    amplitudes = np.array(harmonics(q + correction)[1:])
     amplitudes.setflags(write=False)
-    acceleration = _series(-(order[:, None] ** 2) * amplitudes, len(q))
+    pushed = inertia(still + correction)
     return Response(
         motion=frozen(q + correction),
         correction=frozen(correction),
-        spring_correction=frozen(lines[0].real + _series(springs, len(q))),
-        acceleration=frozen(acceleration),
-        inertia=frozen(-acceleration @ np.asarray(mass)),
-        frequencies=frozen(order / (2.0 * np.pi)),
+        spring_correction=frozen(correction + felt @ delay.T),
+        velocity=frozen(velocity),
+        acceleration=frozen(-np.linalg.solve(mass, pushed.T).T),
+        inertia=frozen(pushed),
+        frequencies=frozen(speed * np.arange(1.0, len(lines)) / (2.0 * np.pi)),
         amplitudes=amplitudes,
         natural_frequencies=basis.hertz,
         resonance=resonance,
-        stiffness_variation=_departure(stiffnesses),
+        stiffness_variation=departure(stiffnesses),
         variation_effect=_relative(correction - first, correction, mean),
+        damper=frozen(damper),
+        loss=float((felt * (felt @ damper)).sum(axis=1).mean()),
         warnings=_warnings(resonance),
     )
+
+
+def modal_damper(mass: Array, modes: Modes, ratio: float) -> tuple[Array, Array]:
+    """Return C and T (n, n), C = K T, by which every mode has the damping `ratio`; free ones are not damped."""
+    natural, weighted = modes.angular_frequencies, mass @ modes.shapes
+    slow = np.divide(2.0 * ratio, natural, out=np.zeros_like(natural), where=natural > 0.0)
+    return (weighted * (2.0 * ratio * natural)) @ weighted.T, (modes.shapes * slow) @ weighted.T
 
 
 def explain(response: Response, names: Sequence[str]) -> str:
@@ -111,7 +166,7 @@ def explain(response: Response, names: Sequence[str]) -> str:
         return f"{text}; no harmonic comes near a natural frequency"
     peak = response.resonance
     return (
-        f"{text}; harmonic {peak.harmonic} ({peak.frequency:.4g} Hz) meets the mode at "
+        f"{text}; harmonic {peak.harmonic} ({peak.frequency:.4g} Hz{peak.seen}) meets the mode at "
         f"{peak.natural_frequency:.4g} Hz, which multiplies its spring force by {peak.factor:.3g}"
     )
 
@@ -131,58 +186,8 @@ def _checked(motion: Array, stiffness: Array, speed: float, damping_ratio: float
     return q, k
 
 
-def _series(amplitudes: ComplexArray, positions: int) -> Array:
-    """Return the zero-mean record (positions, n) of harmonics 1…nh."""
-    return synthesize(np.concatenate([np.zeros_like(amplitudes[:1]), amplitudes]), positions)
-
-
-def _coupled(answer: FrequencyResponse, change: Array, first: Array) -> Array:
-    """Return y (n_pos, n) with the varying stiffness; harmonics above COUPLED see the mean stiffness only."""
-    samples = 2 * COUPLED + 1
-    if len(first) <= samples:
-        return _varying(answer, change, first)
-
-    def lower(record: Array) -> Array:
-        return synthesize(harmonics(record)[: COUPLED + 1], samples)
-
-    low = lower(first)
-    added = _varying(replace(answer, order=answer.order[:COUPLED]), lower(change), low) - low
-    return np.asarray(first + synthesize(harmonics(added), len(first)))
-
-
-def _varying(answer: FrequencyResponse, change: Array, first: Array) -> Array:
-    """Solve y = y₁ − G[(K(φ) − K̄) y], with y₁ (n_pos, n) and G the answers of the mean stiffness."""
-    from scipy.sparse.linalg import LinearOperator, gmres
-
-    shapes, natural = answer.modes.shapes, answer.modes.angular_frequencies
-    held = np.divide(1.0, natural**2, out=np.zeros_like(natural), where=natural > 0.0)
-
-    def moved(flat: Array) -> Array:
-        y = flat.reshape(first.shape)
-        lines = harmonics(np.einsum("pij,pj->pi", change, y))
-        modal = np.concatenate([(lines[:1] @ shapes) * held, answer.to(lines[1:])])
-        lines = np.asarray(modal @ shapes.T, dtype=np.complex128)
-        return np.asarray((y + synthesize(lines, len(y))).ravel())
-
-    size = first.size
-    scale = float(np.abs(first).max(initial=0.0))
-    if scale == 0.0:
-        return first
-    right = first.ravel() / scale
-    operator = LinearOperator((size, size), matvec=moved, dtype=np.float64)
-    y, failed = gmres(operator, right, rtol=1e-11, restart=min(size, 100), maxiter=5)
-    if failed and size <= DENSE:  # contacts that come and go: too far from the mean for an iteration
-        y = np.linalg.solve(np.column_stack([moved(unit) for unit in np.eye(size)]), right)
-    if np.abs(moved(y) - right).max() > 1e-6 * np.abs(y).max():
-        raise NotConverged(
-            "reactions: no steady elastic motion was found with the stiffness of every position; ask for fewer "
-            "positions, raise operation.damping_ratio, or change the speed"
-        )
-    return np.asarray(scale * y.reshape(first.shape))
-
-
-def _departure(stiffnesses: Array) -> float:
-    """Return the largest departure of K(φ) from its mean, relative to the mean's diagonal."""
+def departure(stiffnesses: Array) -> float:
+    """Return the largest departure of K(φ) (n, k, k) from its mean, relative to the mean's diagonal."""
     mean = stiffnesses.mean(axis=0)
     size = np.sqrt(np.abs(np.diag(mean)))
     scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)
@@ -196,26 +201,49 @@ def _relative(part: Array, whole: Array, mean: Array) -> float:
     return float(np.linalg.norm(part * size)) / reach if reach > 0.0 else 0.0
 
 
-def _strongest(answer: FrequencyResponse, still: ComplexArray, mass: Array) -> Resonance | None:
-    """Return the most amplified line among those with at least 1 % of the largest quasi-static effort."""
-    natural = answer.modes.angular_frequencies
-    weight = np.abs(still @ mass @ answer.modes.shapes) * natural
+def _strongest(
+    mass: Array,
+    mean: Array,
+    basis: Modes,
+    frame: Frame | None,
+    lines: ComplexArray,
+    speed: float,
+    ratio: float,
+) -> Resonance | None:
+    """Return the most amplified line among those with at least 1 % of the largest quasi-static effort.
+
+    In a turning frame the modes are those that whirl there, each amplified as if it were alone.
+    """
+    shapes: ComplexArray | Array = basis.shapes
+    modes = basis
+    if frame is not None:
+        found = whirl(System(mass, 0.0 * mass, mean + frame.centrifugal, frame.gyroscopic))
+        norm = np.sqrt(np.einsum("im,ij,jm->m", np.conj(found.shapes), mass, found.shapes).real)
+        shapes = found.shapes / norm
+        modes = Modes(frozen(2.0 * np.pi * found.frequency), basis.shapes)
+    order: Array = speed * np.arange(1.0, len(lines))
+    answer = FrequencyResponse(modes, order, ratio)
+    natural = modes.angular_frequencies
+    still = lines[1:] @ mass
+    weight = np.maximum(np.abs(still @ shapes), np.abs(still @ np.conj(shapes))) * natural
     if not weight.any():
         return None
     below = answer.denominator()
     below = np.where(below == 0.0, np.inf, below)
     factor = np.abs(natural**2 * answer.spring_factor() / below) * (weight >= 0.01 * weight.max())
     line, mode = np.unravel_index(int(np.argmax(factor)), factor.shape)
-    hertz = answer.order[line] / (2.0 * np.pi)
-    return Resonance(int(line) + 1, float(hertz), float(answer.modes.hertz[mode]), float(factor[line, mode]))
+    hertz = order[line] / (2.0 * np.pi)
+    own = natural[mode] / (2.0 * np.pi)
+    seen = "" if frame is None else frame.seen
+    return Resonance(int(line) + 1, float(hertz), float(own), float(factor[line, mode]), seen)
 
 
 def _warnings(resonance: Resonance | None) -> tuple[str, ...]:
     said = []
     if resonance is not None and resonance.factor > 5.0:
         said.append(
-            f"near resonance: harmonic {resonance.harmonic} ({resonance.frequency:.4g} Hz) meets the natural "
-            f"frequency {resonance.natural_frequency:.4g} Hz and is multiplied by {resonance.factor:.3g}; "
+            f"near resonance: harmonic {resonance.harmonic} ({resonance.frequency:.4g} Hz{resonance.seen}) meets the "
+            f"natural frequency {resonance.natural_frequency:.4g} Hz and is multiplied by {resonance.factor:.3g}; "
             f"the result rests on the damping ratio"
         )
     return tuple(said)

@@ -5,7 +5,7 @@ The pin prescribes an angle ψ(t), the wheel lags behind by d, its load behind t
     J1 θ1'' = s N(s d) + β s² N' d' − (k e + β k e'),   J2 θ2'' = k e + β k e' − M_f sign θ2',
     θ1 = ψ − d,   θ2 = θ1 − e,
 
-s(t) the sine of the angle from the wheel's axis to the pin, N(u) the contact.  In the dwell ψ rests and a lock with a
+s(t) the sine of the angle α from the wheel's axis to the pin, N(u) the contact.  In the dwell ψ rests and a lock with a
 constant stiffness takes the place of the contact.  The fourth-order method of Runge and Kutta with steps that are a
 part of the shortest period; Coulomb friction sticks and slips at instants found within a step.
 """
@@ -18,19 +18,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trochoid.dynamics.indexing_march import March, Output, State
+from trochoid.dynamics.indexing_march import March
+from trochoid.dynamics.indexing_parts import Output, State
 from trochoid.dynamics.pin_law import PinLaw
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
 
 STEPS = 64  # per shortest period
 MOST = 64_000  # steps of an index
+RIGID = 100.0  # periods of the lowest mode in an index, beyond which it is as good as rigid
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Index:
     """One index and its dwell: `duration` and `rest` in s, and `sample`, which gives for instants (n,) from the start
-    of the index the lever s, and ψ', ψ'' in the sense of the index, (n,) each.
+    of the index the angle α (rad), and ψ', ψ'' in the sense of the index, (n,) each.
     """
 
     duration: float
@@ -77,35 +79,54 @@ class Response:
 def respond(index: Index, output: Output, law: PinLaw, steps: int = STEPS) -> Response:
     """March through an index and its dwell, from rest without load; `steps` per shortest period.
 
+    Contact and lock are damped by β of their stiffness, as the shaft is, but no more than the wheel on them critically:
+    beyond that a wall would strike a pin that hardly moves.
     Raises NotConverged where an index holds more periods than can be followed.
     """
-    s = index.sample(np.linspace(0.0, index.duration, 65))[0]
-    stiffest = max(output.lock, float(s.max()) ** 2 * law.stiffest)
+    reach = index.sample(np.linspace(0.0, index.duration, 65))[0]
+    stiffest = max(output.lock, float((np.sin(reach) ** 2 * law.stiffest(reach)).max()))
     fastest = output.frequencies_at(stiffest)[-1]
+    damping = min(output.damping, 2.0 / math.sqrt(stiffest / output.inertia))
     h = 2.0 * math.pi / (steps * fastest)
-    if output.damping > 0.0:
-        h = min(h, 2.0 / (output.damping * fastest**2))  # else the method is not stable
+    decay = max(damping * fastest**2, output.damping * output.shaft_frequency**2)
+    if decay > 0.0:
+        h = min(h, 2.0 / decay)  # else the method is not stable
     count = math.ceil(index.duration / h)
     if count > MOST:
-        raise NotConverged(
-            f"response of the wheel: the index lasts {index.duration * fastest / (2.0 * math.pi):.3g} of its shortest "
-            f"natural periods ({2.0 * math.pi / fastest:.3g} s), and no more than {MOST // steps} are followed; "
-            f"so slow a drive is as good as rigid: leave the vibration out, or take {count / MOST:.3g} times the speed"
-        )
+        raise NotConverged(_too_many(index, output.frequencies_at(stiffest), count / MOST, steps))
     at = index.sample(np.linspace(0.0, index.duration, 2 * count + 1))
     start = (0.0, float(at[1][0]), 0.0, 0.0, 0.0, 0.0)
-    march = March(output, law.torque(output.damping))
+    march = March(output, law.torque(damping))
     h_index = index.duration / count
     states, grip = march.run(at, h_index, start, march.begin(start, start[1], True))
     d, p, e, g = (float(x) for x in states[-1, :4])
-    return Response(
-        _course(march, at, h_index, states), *_dwell(index.rest, h, output, (d, p, e, g, 0.0, 0.0), grip.held)
+    dwell, held = _dwell(index.rest, h, output, damping, (d, p, e, g, 0.0, 0.0), grip.held)
+    return Response(_course(march, at, h_index, states), dwell, held)
+
+
+def _too_many(index: Index, modes: tuple[float, ...], over: float, steps: int) -> str:
+    """Say what an index has too many of, and what to change."""
+    period = 2.0 * math.pi / modes[-1]
+    lowest = index.duration * modes[0] / (2.0 * math.pi)
+    speed = f"take {over:.3g} times the speed"
+    if lowest > RIGID or len(modes) == 1:
+        end = f"so slow a drive is as good as rigid: leave the vibration out, or {speed}"
+    else:
+        end = (
+            f"its lowest mode, the load on the shaft, has {lowest:.3g} of its own, the wheel on its pin is that much "
+            f"faster: give the wheel {over**2:.3g} times the inertia, or {speed}"
+        )
+    return (
+        f"response of the wheel: the index lasts {index.duration / period:.3g} of its shortest natural periods "
+        f"({period:.3g} s), and no more than {MOST // steps} are followed; {end}"
     )
 
 
-def _dwell(rest: float, h: float, output: Output, start: State, held: bool) -> tuple[Course, bool]:
+def _dwell(
+    rest: float, h: float, output: Output, damping: float, start: State, held: bool
+) -> tuple[Course, bool]:
     """March in steps of about h through the dwell, or until nothing moves; deviations from a base at rest."""
-    k, damp = output.lock, output.damping * output.lock
+    k, damp = output.lock, damping * output.lock
     march = March(output, lambda d, p, _: k * d + damp * p, rest=True)
     count = min(max(math.ceil(rest / h), 1), MOST)
     h = min(h, rest / count)
@@ -117,10 +138,10 @@ def _dwell(rest: float, h: float, output: Output, start: State, held: bool) -> t
 
 def _course(march: March, at: tuple[Array, Array, Array], h: float, states: Array) -> Course:
     n = len(states)
-    lever, base = (x[: 2 * n : 2] for x in at[:2])
-    rows = zip(states.tolist(), lever.tolist(), strict=True)
-    torque = np.array([march.torque(y[0], y[1], s) for y, s in rows])
+    reach, base = (x[: 2 * n : 2] for x in at[:2])
     d, p, e, g = states[:, :4].T
+    rows = zip(d.tolist(), p.tolist(), reach.tolist(), strict=True)
+    torque = np.array([march.torque(*row) for row in rows])
     time = np.asarray(np.arange(n) * h, dtype=np.float64)
     return Course(time, d, p, e, g, torque, base, _missing(march.output, states, base))
 

@@ -43,21 +43,6 @@ class FrequencyResponse:
         delay = np.divide(2.0 * self.damping_ratio, natural, out=np.zeros_like(natural), where=natural > 0.0)
         return np.asarray(1.0 + 1j * self.order[:, None] * delay, dtype=np.complex128)
 
-    def to(self, forces: ComplexArray) -> ComplexArray:
-        """Return modal amplitudes (nh, n) under `forces` (nh, n); an excited undamped resonance raises."""
-        modal = forces @ self.modes.shapes
-        below = self.denominator()
-        flat = np.abs(below) <= 1e-8 * self.order[:, None] ** 2
-        hit = flat & (np.abs(modal) > 1e-13 * np.abs(modal).max(initial=0.0))
-        if hit.any():
-            line, mode = (int(index[0]) for index in np.nonzero(hit))
-            raise TrochoidError(
-                f"harmonic {line + 1} ({self.order[line] / 2 / np.pi:.6g} Hz) coincides with the natural "
-                f"frequency {self.modes.hertz[mode]:.6g} Hz and there is no damping: the motion grows for "
-                f"ever; give operation.damping_ratio > 0 or change the speed"
-            )
-        return np.asarray(np.where(flat, 0.0, modal / np.where(flat, 1.0, below)), dtype=np.complex128)
-
 
 def natural_modes(mass: Array, stiffness: Array) -> Modes:
     """Solve K v = ω² M v; raises when M is not positive definite or K is not positive semi-definite.

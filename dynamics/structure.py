@@ -10,7 +10,7 @@ With rigid modes among the coordinates, a casing that is nearly rigid loses no d
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -52,18 +52,21 @@ class Structure:
 
 
 def elastic_casing(
-    reduced: Reduced, mounts: Mapping[str, Mount], points: Mapping[str, Triple], damping_ratio: float
+    reduced: Reduced,
+    mounts: Mapping[str, Mount],
+    points: Mapping[str, Triple],
+    damping_ratio: float,
+    held: Collection[str] = (),
 ) -> Structure:
     """Return a reduced casing on `mounts` by the interface that each holds, read at `points`.
 
-    Loads may act at every interface.  Each elastic mode of the free casing has `damping_ratio` of its critical
-    damping; rigid motions are damped by the mounts alone.  Raises TrochoidError for a mount at no interface, a
-    point off the body and a ratio that is not in [0, 1).
+    Loads may act at every interface; those `held` do not move.  Each elastic mode of the casing, free or held, has
+    `damping_ratio` of its critical damping; rigid motions are damped by the mounts alone.  Raises TrochoidError for a
+    mount at no interface, a point off the body and a ratio that is not in [0, 1).
     """
     if not 0.0 <= damping_ratio < 1.0:
         raise TrochoidError(f"a damping ratio is at least 0 and below 1, given {damping_ratio:g}")
-    modes = natural_modes(reduced.mass, reduced.stiffness)
-    natural, shapes = modes.angular_frequencies, modes.shapes
+    natural, shapes = _modes(reduced, held)
     stiffness, damping = np.diag(natural**2), np.diag(2.0 * damping_ratio * natural)
     seats = {i.name: Place(i.position, frozen(shapes[reduced.columns(i.name)])) for i in reduced.interfaces}
     for name, mount in mounts.items():
@@ -85,6 +88,18 @@ def elastic_casing(
         MappingProxyType(read),
         reduced.upper,
     )
+
+
+def _modes(reduced: Reduced, held: Collection[str]) -> tuple[Array, Array]:
+    """Return angular frequencies (m,) and shapes (n, m) of a casing with some interfaces held, or free."""
+    moves = np.ones(reduced.size, dtype=bool)
+    for name in held:
+        moves[reduced.columns(name)] = False
+    rows = np.flatnonzero(moves)
+    modes = natural_modes(reduced.mass[np.ix_(rows, rows)], reduced.stiffness[np.ix_(rows, rows)])
+    shapes = np.zeros((reduced.size, len(rows)))
+    shapes[rows] = modes.shapes
+    return modes.angular_frequencies, shapes
 
 
 def rigid_casing(reduced: Reduced, mounts: Mapping[str, Mount]) -> Casing:

@@ -96,11 +96,16 @@ class BearingState:
     @property
     def note(self) -> str:
         """Say in words what a reader of the stiffness must know, or nothing."""
-        if self.touching == 0:
-            return "no roller carries: the bearing is open and its stiffness is zero"
-        if self.touching == 1:
-            return "a single roller carries: there is no stiffness across its line of action"
-        return ""
+        return carrying_note(self.touching)
+
+
+def carrying_note(touching: int) -> str:
+    """Say what it means for the stiffness that so many rollers carry, or nothing."""
+    if touching == 0:
+        return "no roller carries: the bearing is open and its stiffness is zero"
+    if touching == 1:
+        return "a single roller carries: there is no stiffness across its line of action"
+    return ""
 
 
 def load_distribution(

@@ -22,6 +22,7 @@ from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, IntArray, frozen
 
 UPPER = 2000.0  # Hz: twice the upper end of the band 10–1000 Hz
+MANY = 150  # modes that are enough above the frequency that is needed
 LOST = 1e-5  # of an interface's stiffness: what a rigid motion may seem to cost; rounding leaves 1e-10
 
 
@@ -56,10 +57,15 @@ class Reduced:
 
 
 def reduce(
-    body: SolidBody, interfaces: Sequence[Interface], upper: float = UPPER, solver: str | None = None
+    body: SolidBody,
+    interfaces: Sequence[Interface],
+    upper: float = UPPER,
+    solver: str | None = None,
+    least: float | None = None,
 ) -> Reduced:
     """Reduce a free body to its interfaces and the modes below `upper` Hz with all of them held.
 
+    With `least` Hz, a body of many modes keeps those up to there and MANY at least, and fewer above.
     Rigid motions cost nothing, to rounding: what the solver leaves is taken out.  Raises Infeasible without
     interfaces, for one of fewer than three nodes or all on a line, and for two that share nodes.
     """
@@ -68,13 +74,13 @@ def reduce(
     held = csc_matrix(body.stiffness[dofs][:, dofs])
     solve = factorise(held, solver)
     shapes = _static_shapes(body, interfaces, dofs, solve)
-    hertz, modes = modes_below(spread(body.mass[free][:, free]), solve, upper)
+    hertz, modes, limit = modes_below(spread(body.mass[free][:, free]), solve, upper, least, MANY)
     basis = np.zeros((body.size, shapes.shape[1] + len(hertz)))
     basis[:, : shapes.shape[1]] = shapes
     basis[dofs, shapes.shape[1] :] = modes
     mass, stiffness = _projected(body, interfaces, basis, hertz)
     return Reduced(
-        body, tuple(interfaces), frozen(mass), frozen(stiffness), frozen(basis), frozen(hertz), upper
+        body, tuple(interfaces), frozen(mass), frozen(stiffness), frozen(basis), frozen(hertz), limit
     )
 
 

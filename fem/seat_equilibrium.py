@@ -12,7 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from trochoid.fem import complementarity as lcp
-from trochoid.fem.bearing import EXPONENT, RollerBearing, iso16281_constant, seated_stiffness
+from trochoid.fem.bearing import (
+    EXPONENT,
+    RollerBearing,
+    carrying_note,
+    iso16281_constant,
+    seated_stiffness,
+)
 from trochoid.fem.laws import PowerLaw
 from trochoid.fem.seat import roller_angles
 from trochoid.kinematics.errors import Infeasible, NotConverged, TrochoidError
@@ -50,11 +56,7 @@ class SeatedState:
     @property
     def note(self) -> str:
         """Say in words what a reader of the stiffness must know, or nothing."""
-        if self.touching == 0:
-            return "no roller carries: the bearing is open and its stiffness is zero"
-        if self.touching == 1:
-            return "a single roller carries: there is no stiffness across its line of action"
-        return ""
+        return carrying_note(self.touching)
 
 
 def solve_seated(

@@ -22,14 +22,25 @@ SHARP = 1e-8  # residual over the value itself; the value is then sharp to its s
 SPENT = 1e-10  # of its size before, what is left of a vector that lies in those before it
 
 
-def modes_below(mass: csc_matrix, solve: Solve, upper: float) -> tuple[Array, Array]:
-    """Return all natural frequencies (m,) up to `upper` Hz, rising, and mass-normalised modes (n, m).
+def modes_below(
+    mass: csc_matrix, solve: Solve, upper: float, least: float | None = None, many: int = MOST
+) -> tuple[Array, Array, float]:
+    """Return all natural frequencies (m,) up to `upper` Hz, rising, mass-normalised modes (n, m), and that limit.
 
-    `solve` is the factor of the stiffness, which is positive definite.  Raises NotConverged.
+    With `least` Hz the limit may be lower, between the two, once there are `many`.  `solve` is the factor of the
+    stiffness, which is positive definite.  Raises NotConverged.
     """
-    hertz, modes = _lanczos(mass, solve, 0.0, lambda found: bool(found.size and found[-1] > upper))
-    below = hertz <= upper
-    return hertz[below], modes[:, below]
+    low = upper if least is None else min(least, upper)
+
+    def enough(found: Array) -> bool:
+        return bool(found.size and (found[-1] > upper or (found[-1] > low and len(found) > many)))
+
+    hertz, modes = _lanczos(mass, solve, 0.0, enough)
+    limit = upper
+    if len(hertz) > many and low < hertz[-1] <= upper:
+        limit = max(low, float(hertz[-2]))  # the last one found may have a twin that is not
+    below = hertz <= limit
+    return hertz[below], modes[:, below], limit
 
 
 def lowest_modes(mass: csc_matrix, solve: Solve, count: int, shift: float = 0.0) -> tuple[Array, Array]:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.linalg import sqrtm
 
-from trochoid.dynamics.elastic import Response, explain, respond
+from trochoid.dynamics.elastic import Frame, Response, explain, respond
 from trochoid.dynamics.modes import natural_modes
 from trochoid.dynamics.spectrum import harmonics, synthesize
 from trochoid.dynamics.supports import Support, assemble, shaft_bearing, support_forces
@@ -127,6 +127,73 @@ def test_varying_stiffness_against_time_integration(swing: float) -> None:
     scale = 1.0 / np.sqrt(np.diag(stiffness))
     norm = np.linalg.norm(stiffness * np.outer(scale, scale), ord=2)
     assert response.stiffness_variation == pytest.approx(swing * norm, rel=1e-9)
+
+
+def _turns(angle: Array) -> Array:
+    """Return matrices (n, 5, 5) that turn x, y and tilts about x, y by an angle; the fifth coordinate is a rotation."""
+    made = np.tile(np.eye(5), (*np.shape(angle), 1, 1))
+    for i in (0, 2):
+        made[..., i, i] = made[..., i + 1, i + 1] = np.cos(angle)
+        made[..., i, i + 1], made[..., i + 1, i] = -np.sin(angle), np.sin(angle)
+    return made
+
+
+@pytest.mark.independent
+def test_turning_frame_against_time_integration_in_the_fixed_one() -> None:
+    """A shaft that tilts and spins, and a rotation, coupled by springs that turn: solve_ivp along fixed axes.
+
+    There K, C and the load turn, momentum is the only gyroscopic term, and nothing is centrifugal.
+    """
+    rng = np.random.default_rng(4)
+    mass, momentum = np.diag([2.0, 2.0, 0.5, 0.5, 0.7]), 0.4 * SPEED
+    a = rng.normal(size=(5, 5))
+    inner = SPEED**2 * (30.0 * np.diag(np.diag(mass)) + 6.0 * a @ a.T)
+    rate = SPEED * (_turns(np.array(0.5 * np.pi)) - np.diag([0.0, 0.0, 0.0, 0.0, 1.0]))
+    spins = np.zeros((5, 5))
+    spins[2, 3], spins[3, 2] = momentum, -momentum
+    frame = Frame(2.0 * mass @ rate + spins, mass @ rate @ rate + spins @ rate, rate)
+    varying = (1.0 + 0.2 * np.cos(2.0 * PHI))[:, None, None] * inner
+    coefficients, samples = _motion(9, 5)
+    samples = samples + 1e-6 * rng.normal(size=5)  # what stands still in the frame goes round outside
+    found = respond(samples, mass, varying, SPEED, 0.05, frame)
+    damper, inverse = _viscous(mass, inner, 0.05), np.linalg.inv(mass)
+    offset = samples.mean(axis=0)
+    order = np.arange(1, coefficients.shape[1] + 1)
+
+    def still(t: float) -> tuple[Array, Array]:
+        """Velocity and acceleration of the quasi-static motion along fixed axes, by the product rule."""
+        phase = order * SPEED * t
+        at = offset + np.cos(phase) @ coefficients[0] + np.sin(phase) @ coefficients[1]
+        once = (-(order * SPEED) * np.sin(phase)) @ coefficients[0]
+        once = once + ((order * SPEED) * np.cos(phase)) @ coefficients[1]
+        twice = -((order * SPEED) ** 2 * np.cos(phase)) @ coefficients[0]
+        twice = twice - ((order * SPEED) ** 2 * np.sin(phase)) @ coefficients[1]
+        turn = _turns(np.array(SPEED * t))
+        return turn @ (once + rate @ at), turn @ (twice + 2.0 * rate @ once + rate @ rate @ at)
+
+    def change(t: float, flat: Array) -> Array:
+        y = flat.reshape(2, 5, -1)
+        turn = _turns(np.array(SPEED * t))
+        springs = turn @ ((1.0 + 0.2 * np.cos(2.0 * SPEED * t)) * inner) @ turn.T
+        velocity, acceleration = still(t)
+        push = np.zeros(y.shape[2])
+        push[0] = 1.0
+        load = -mass @ acceleration - spins @ velocity
+        force = springs @ y[0] + (turn @ damper @ turn.T + spins) @ y[1]
+        return np.concatenate([y[1], inverse @ (np.outer(load, push) - force)]).ravel()
+
+    period = 2.0 * np.pi / SPEED
+    start = np.hstack([np.zeros((10, 1)), np.diag([1e-6] * 5 + [1e-6 * SPEED] * 5)])
+    options = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-17}
+    end = solve_ivp(change, (0.0, period), start.ravel(), **options).y[:, -1].reshape(10, -1)
+    initial = np.linalg.solve(np.eye(10) - end[:, 1:] @ np.linalg.inv(start[:, 1:]), end[:, 0])
+    times = period * np.arange(60) / 60
+    reference = solve_ivp(change, (0.0, period), initial, t_eval=times, **options).y[:5].T
+    outside = np.einsum("nij,nj->ni", _turns(PHI), found.correction)
+    assert outside == pytest.approx(reference, abs=1e-7 * np.abs(reference).max())
+    # and its energy: what damping takes there is the loss
+    felt = found.velocity + found.correction @ rate.T
+    assert found.loss == pytest.approx(float((felt * (felt @ damper)).sum(axis=1).mean()), rel=1e-9)
 
 
 @pytest.mark.independent

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from trochoid.dynamics.elastic import respond
-from trochoid.dynamics.hill import growth, rate, steady, varied
-from trochoid.kinematics.errors import TrochoidError
+from trochoid.dynamics.floquet import fail_if_growing, growth
+from trochoid.dynamics.hill import rate, steady, varied
+from trochoid.kinematics.errors import NotConverged, TrochoidError
 from trochoid.kinematics.types import Array
 
 SPEED = 300.0
@@ -94,3 +95,78 @@ def test_what_nothing_holds_stays_and_what_cannot_be_is_refused() -> None:
         steady(np.eye(1), np.eye(1), np.ones((8, 1, 1)), np.ones((8, 1)), 0.0)
     with pytest.raises(TrochoidError, match="no steady motion"):
         steady(np.eye(1), np.zeros((1, 1)), np.full((8, 1, 1), 4.0), np.cos(angle)[:, None], 2.0)
+
+
+@pytest.mark.property
+def test_stiffness_that_comes_and_goes_is_solved_directly() -> None:
+    """A spring that is there for half of the time only: the equations hold, and the mean alone would be far off."""
+    angle = 2.0 * np.pi * np.arange(41) / 41
+    on = (np.cos(angle) > 0.0).astype(float)[:, None, None]
+    k = 2e5 * np.eye(2) + on * np.array([[4e7, -4e7], [-4e7, 4e7]])
+    y = steady(MASS, DAMPING, k, force(angle), SPEED)
+    left = rate(y, SPEED, 2) @ MASS + rate(y, SPEED) @ DAMPING.T + varied(k, y)
+    assert left == pytest.approx(force(angle), abs=1e-7 * 50.0)
+    plain = steady(MASS, DAMPING, k.mean(axis=0)[None], force(angle), SPEED)
+    assert np.abs(plain - y).max() > 0.2 * np.abs(y).max()
+
+
+@pytest.mark.exact
+def test_free_bodies_under_varying_stiffness_keep_their_centre() -> None:
+    """Two masses on a spring between them that varies, nothing to the ground: the centre rests."""
+    angle = 2.0 * np.pi * np.arange(31) / 31
+    k = 3e5 * (1.0 + 0.4 * np.cos(2.0 * angle))[:, None, None] * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    push = 10.0 * np.cos(angle)[:, None] * np.array([1.0, -1.0])
+    y = steady(MASS, 0.0 * MASS, k, push, SPEED)
+    assert y @ np.diag(MASS) == pytest.approx(0.0, abs=1e-12)
+    assert np.abs(y).max() > 1e-5
+
+
+@pytest.mark.property
+def test_a_stiffness_that_excites_itself_is_named() -> None:
+    """Mathieu's equation in its first tongue: refused with growth, frequency and what to try; outside, the growth."""
+    angle = 2.0 * np.pi * np.arange(200) / 200
+    k = (1.0 + 0.15 * np.cos(angle))[:, None, None]
+    with pytest.raises(
+        NotConverged, match=r"the mesh excites itself: free motions grow 1\.12.*damping_ratio"
+    ):
+        fail_if_growing(np.eye(1), np.zeros((1, 1)), k, 2.0, "the mesh")
+    assert fail_if_growing(np.eye(1), np.full((1, 1), 0.2), k, 2.0, "the mesh") < 1.0
+    assert growth(np.eye(1), np.zeros((1, 1)), k, 2.9) == pytest.approx(1.0, abs=1e-9)
+
+
+@pytest.mark.independent
+def test_multipliers_with_damping_and_momentum() -> None:
+    """Against scipy's integrator over one period, for all states of two masses with gyroscopic terms."""
+    from scipy.integrate import solve_ivp
+
+    from trochoid.dynamics.floquet import multipliers
+
+    inverse = np.linalg.inv(MASS)
+
+    def change(time: float, flat: Array) -> Array:
+        y = flat.reshape(4, 4)
+        return np.concatenate(
+            [y[2:], -inverse @ (DAMPING @ y[2:] + stiffness(np.asarray(SPEED * time)) @ y[:2])]
+        ).ravel()
+
+    end = solve_ivp(change, (0.0, 2.0 * np.pi / SPEED), np.eye(4).ravel(), rtol=1e-10, atol=1e-12).y[:, -1]
+    expected = np.sort(np.abs(np.linalg.eigvals(end.reshape(4, 4))))
+    found = multipliers(MASS, DAMPING, stiffness(2.0 * np.pi * np.arange(800) / 800), SPEED)
+    assert np.sort(np.abs(found)) == pytest.approx(expected, rel=2e-4)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("turning", [False, True])
+def test_damping_of_a_frame_that_turns_faster_than_the_whirl(turning: bool) -> None:
+    """A mass on round springs, seen from a frame above its critical speed: what damps at rest damps, what turns drives.
+
+    Jeffcott's rotor: fixed damping c decays with exp(−c t/2m); damping that turns with Ω > ω grows by about
+    exp(c (Ω − ω) t/(2 m ω)).
+    """
+    mass, natural, frame, c = 2.0, 50.0, 120.0, 4.0
+    skew = frame * np.array([[0.0, -1.0], [1.0, 0.0]])
+    k = (mass * natural**2) * np.eye(2) + mass * skew @ skew + (0.0 if turning else c) * skew
+    matrices = np.tile(k, (400, 1, 1))
+    found = growth(mass * np.eye(2), 2.0 * mass * skew + c * np.eye(2), matrices, frame)
+    rate_ = c * (frame - natural) / (2.0 * mass * natural) if turning else -c / (2.0 * mass)
+    assert np.log(found) == pytest.approx(rate_ * 2.0 * np.pi / frame, rel=0.02)

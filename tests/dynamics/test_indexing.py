@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from trochoid.dynamics.indexing import Index, respond
-from trochoid.dynamics.indexing_march import Output
+from trochoid.dynamics.indexing_parts import Output
 from trochoid.dynamics.pin_law import PinLaw, pin_law
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
@@ -26,7 +26,7 @@ def step(acceleration: float = 100.0, duration: float = 0.01, rest: float = 0.01
     """A base whose acceleration jumps from 0 to a constant."""
 
     def sample(t: Array) -> tuple[Array, Array, Array]:
-        return np.ones_like(t), acceleration * t, np.full_like(t, acceleration)
+        return np.full_like(t, 0.5 * math.pi), acceleration * t, np.full_like(t, acceleration)
 
     return Index(duration, rest, sample)
 
@@ -37,7 +37,7 @@ def humped(duration: float, rest: float = 0.01, swing: float = 0.1) -> Index:
 
     def sample(t: Array) -> tuple[Array, Array, Array]:
         velocity, acceleration = 0.5 * swing * w * np.sin(w * t), 0.5 * swing * w**2 * np.cos(w * t)
-        return 0.9 + 0.1 * np.sin(w * t), velocity, acceleration
+        return np.arcsin(0.9 + 0.1 * np.sin(w * t)), velocity, acceleration
 
     return Index(duration, rest, sample)
 
@@ -162,6 +162,7 @@ def test_law_is_odd_and_inverted() -> None:
     np.testing.assert_allclose(law.slope(u), 1.5e6 * np.sqrt(u), rtol=1e-8)
     np.testing.assert_allclose(law.pressed(law.moment(u)), u, rtol=1e-9)
     torque = law.torque(0.0)
-    assert torque(1.1e-4, 0.0, 1.0) == pytest.approx(1.0) == -torque(-1.1e-4, 0.0, 1.0)
-    assert torque(0.9e-5, 0.0, 1.0) == 0.0
-    assert torque(2.2e-4, 0.0, 0.5) == pytest.approx(0.5)
+    assert torque(1.1e-4, 0.0, 0.5 * math.pi) == pytest.approx(1.0)
+    assert torque(-1.1e-4, 0.0, 0.5 * math.pi) == pytest.approx(-1.0)
+    assert torque(0.9e-5, 0.0, 0.5 * math.pi) == 0.0
+    assert torque(2.2e-4, 0.0, math.pi / 6.0) == pytest.approx(0.5)

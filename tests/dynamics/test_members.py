@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.special import mathieu_a, mathieu_b
 
-from trochoid.dynamics.floquet import growth, multipliers
+from trochoid.dynamics.floquet import along, growth, multipliers
 from trochoid.dynamics.local_law import Local, varying
 from trochoid.dynamics.members import (
     Member,
@@ -126,6 +126,39 @@ def test_mass_ratios_of_1e9_keep_both_frequencies() -> None:
     assert frequencies == pytest.approx([20.0] * 3 + [30.0] * 3 + [100.0] * 6, rel=1e-9)
 
 
+@pytest.mark.exact
+def test_soft_whirl_beside_stiffness_of_1e20() -> None:
+    """A spinning disc on soft tilting springs, held 1e20 times as stiff across: both whirls, to ten digits.
+
+    ω = [√(G² + 4 k) ± G]/2 for unit inertia; and a free disc nutates with G, its momentum over its inertia.
+    """
+    momentum = 3.0
+    spins = np.zeros((4, 4))
+    spins[2, 3], spins[3, 2] = momentum, -momentum
+    stiff = System(np.eye(4), np.zeros((4, 4)), np.diag([1e20, 1e20, 1.0, 1.0]), spins)
+    found = whirl(stiff)
+    root = np.sqrt(momentum**2 + 4.0)
+    wanted = [0.5 * (root - momentum), 0.5 * (root + momentum), 1e10, 1e10]
+    assert 2 * np.pi * found.frequency == pytest.approx(wanted, rel=1e-5)
+    apart = whirl(System(np.eye(4), np.zeros((4, 4)), np.diag([1e12, 1e12, 1.0, 1.0]), spins))
+    assert 2 * np.pi * apart.frequency[:2] == pytest.approx(wanted[:2], rel=1e-9)
+    assert found.growth == 0.0
+    free = whirl(System(np.eye(4), np.zeros((4, 4)), np.diag([1e12, 1e12, 0.0, 0.0]), spins))
+    assert 2 * np.pi * free.frequency == pytest.approx([momentum, 1e6, 1e6], rel=1e-9)
+
+
+@pytest.mark.exact
+def test_mass_ratio_of_1e9_on_one_joint() -> None:
+    """A gram on a joint to a thousand tonnes on a soft spring: both frequencies, closed form of two masses."""
+    small, large, joint_, ground = 1e-3, 1e6, 1e9, 1e4
+    mass = np.diag([small, large])
+    stiffness = np.array([[joint_, -joint_], [-joint_, joint_ + ground]])
+    found = 2 * np.pi * whirl(System(mass, np.zeros((2, 2)), stiffness)).frequency
+    sum_, product = joint_ / small + (joint_ + ground) / large, joint_ * ground / (small * large)
+    high = 0.5 * (sum_ + np.sqrt(sum_**2 - 4.0 * product))
+    assert found == pytest.approx([np.sqrt(product / high), np.sqrt(high)], rel=1e-9)
+
+
 @pytest.mark.property
 def test_impossible_members_are_refused() -> None:
     """No mass, moments of inertia that no body has, a spinning beam, a direction that is none, a name unknown."""
@@ -154,7 +187,7 @@ def test_parametric_instability_is_where_mathieu_has_it(q: float) -> None:
         slopes = (1e3 + a - 2 * q * np.cos(2 * np.pi * np.arange(512) / 512))[:, None]
         one = System(np.ones((1, 1)), np.zeros((1, 1)), -1e3 * np.ones((1, 1)))
         mesh = (Local("mesh", np.ones(1), varying(slopes[:, 0]), 1e3),)
-        largest = growth(one, mesh, slopes, 2.0)
+        largest = growth(*along(one, mesh, slopes), 2.0)
         assert (largest < 1 + 1e-6) == stable
-        product = np.prod(multipliers(one, mesh, slopes, 2.0))
+        product = np.prod(multipliers(*along(one, mesh, slopes), 2.0))
         assert abs(product - 1.0) < 1e-9  # nothing damps: the volume of states is kept

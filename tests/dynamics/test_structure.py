@@ -159,6 +159,20 @@ def test_matrices_are_symmetric_and_positive() -> None:
     assert np.diag(free.damping)[6:] == pytest.approx(0.04 * hertz, rel=1e-12)
 
 
+@pytest.mark.property
+def test_held_feet_are_very_stiff_mounts() -> None:
+    """Springs, also of rotation, a million times as stiff as the casing: velocities of held feet within 1e-5."""
+    stiff = {
+        name: Mount(mount.position, (1e15,) * 3, (0.0,) * 3, (1e12,) * 3) for name, mount in MOUNTS.items()
+    }
+    sprung = elastic_casing(casing(), stiff, PLACES, 0.0)
+    held = elastic_casing(casing(), {}, PLACES, 0.0, held=tuple(MOUNTS))
+    found, expected = (vibrate(each, _loads(5), HERTZ, POINTS) for each in (sprung, held))
+    size = np.abs(expected.velocity).max()
+    assert found.velocity == pytest.approx(expected.velocity, abs=1e-5 * size)
+    assert held.mass.shape[0] == casing().size - 6 * len(MOUNTS)
+
+
 @pytest.mark.exact
 def test_few_modes_are_reported() -> None:
     """Modes up to 500 Hz for a band up to 1000 Hz: a warning; up to 2000 Hz: none about it."""

@@ -168,7 +168,7 @@ def test_all_modes_below_are_all() -> None:
     squares, _ = eigh(stiffness.toarray(), mass.toarray())
     expected = np.sqrt(squares) / (2.0 * np.pi)
     for upper in (100.0, 20e3, 60e3):
-        hertz, modes = modes_below(mass, factorise(stiffness), upper)
+        hertz, modes, _ = modes_below(mass, factorise(stiffness), upper)
         assert hertz == pytest.approx(expected[expected <= upper], rel=1e-9)
         assert modes.T @ (mass @ modes) == pytest.approx(np.eye(len(hertz)), abs=1e-9)
 
@@ -197,3 +197,21 @@ def test_folded_elements_are_refused() -> None:
     points[middle] = points[mesh.elements[1, 0]] + [0.9, 0.0, 0.0]
     with pytest.raises(TrochoidError, match="1 curved elements fold"):
         solid_body(solid_mesh(points, mesh.elements), STEEL)
+
+
+@pytest.mark.property
+def test_many_modes_may_be_enough() -> None:
+    """With a lower limit that must be reached, all modes up to the limit that is told are there."""
+    rng = np.random.default_rng(5)
+    squares = np.sort(rng.uniform(1.0, 1e4, 120)) * (2.0 * np.pi) ** 2
+    mass, stiffness = (csc_matrix(np.diag(each)) for each in (np.ones(120), squares))
+    every = np.sqrt(squares) / (2.0 * np.pi)
+    for least, many in ((20.0, 5), (60.0, 5), (20.0, 40)):
+        hertz, modes, limit = modes_below(mass, factorise(stiffness), 95.0, least, many)
+        assert least <= limit <= 95.0
+        assert len(hertz) >= many
+        assert hertz == pytest.approx(every[every <= limit], rel=1e-9)
+        assert modes.shape == (120, len(hertz))
+    hertz, _, limit = modes_below(mass, factorise(stiffness), 95.0)
+    assert limit == 95.0
+    assert hertz == pytest.approx(every[every <= 95.0], rel=1e-9)

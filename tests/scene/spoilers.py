@@ -244,7 +244,7 @@ def sizes(raw: Tables) -> Design:
 
 
 def no_torque(rng: np.random.Generator, raw: Tables) -> Refusal:
-    name = one_of(rng, UNDER_TORQUE)
+    name = one_of(rng, list(UNDER_TORQUE))
     raw["effects"] = [{"type": each} for each in EFFECTS]
     raw["operation"]["output_torque"] = one_of(rng, [0, 0.0, "0 N*m"])
     raw["ask"]["quantities"] = [name]

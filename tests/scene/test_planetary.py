@@ -86,7 +86,7 @@ def test_the_usual_choice_of_members(fixed: str, driving: str, driven: str) -> N
             'type = "friction"',
             'effects.4.type: "friction" is not an effect of planetary drives',
         ),
-        ('"mass"', '"balance"', 'ask.quantities.18: "balance" is not offered by planetary; it offers: ratio'),
+        ('"mass"', '"balance"', 'ask.quantities.20: "balance" is not offered by planetary; it offers: ratio'),
     ],
 )
 def test_a_mistake_gives_a_message_at_its_line(old: str, new: str, said: str) -> None:

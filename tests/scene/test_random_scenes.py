@@ -40,7 +40,7 @@ def balanced(made: Design, level: Level | None, angle: float) -> None:
     if force.any():
         assert missing <= BALANCE
     else:  # then it is in N
-        springs = made.drive.input_shaft.bearing_stiffness + made.drive.output_flange.bearing_stiffness
+        springs = made.supports["shaft"][0] + made.supports["output"][0]
         assert made.flange_torque == 0.0
         assert missing <= ROUNDING * made.flank.pin_circle_radius * springs
 

@@ -12,17 +12,23 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
+from trochoid.drives.casing import casing_reasons
 from trochoid.faults import listed
 from trochoid.kinematics.errors import SceneError
 from trochoid.scene import KINDS, NEEDS, read
 from trochoid.scene.fields import Measure
 from trochoid.scene.form import model_of
 from trochoid.scene.model import scene_model
-from trochoid.scene.needs import EFFECTS_OF, MODELS_OF
+from trochoid.scene.needs import EFFECTS_OF, MODELS_OF, SEATS_OF
 from trochoid.starter import starter
 
-OPTIONAL = re.compile(r"^# (?=[a-z_]+ = )", re.M)
-EITHER = re.compile(r"^relative_turning_time = .*\n", re.M)  # an optional line stands in its place
+OPTIONAL = re.compile(r"^# (?=[a-z_]+ = |\[+casing\.)", re.M)
+# an optional line stands in their place: of the turning time, of the rigid casing, of a mesh's file
+EITHER = re.compile(
+    r"^(relative_turning_time|mesh_file|mesh_unit|set|point|direction|span|normal) = .*\n"
+    r"|(?<=\[casing\]\n)(?:(?:#.*|mass = .*|inertia = .*|center = .*)\n)+",
+    re.M,
+)
 
 
 def fields(model: type[BaseModel], key: str = "") -> Iterator[tuple[str, FieldInfo]]:
@@ -44,7 +50,10 @@ def comments(text: str) -> dict[str, str]:
     found: dict[str, str] = {}
     table, said = "", ""
     for line in text.splitlines():
-        header, key = re.match(r"\[+([\w.]+)\]", line), re.match(r"(?:# )?([a-z_]+) = ", line)
+        header, key = (
+            re.match(r"(?:# (?=\[+casing\.))?\[+([\w.]+)\]", line),
+            re.match(r"(?:# )?([a-z_]+) = ", line),
+        )
         if key:
             found.setdefault(f"{table}{key[1]}", said.strip())
             said = ""
@@ -124,6 +133,18 @@ def test_starter_tells_the_true_defaults_and_units(kind: str) -> None:
             assert f'default "{info.default}"' in comment, key
         else:
             assert info.default in (None, (), PydanticUndefined) or isinstance(info.default, tuple), key
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if "casing_on_mounts" in EFFECTS_OF[kind]])
+def test_elastic_casing_of_a_starter_can_be_made(kind: str) -> None:
+    """With all optional lines the casing is elastic, a box that holds every place of the drive."""
+    full = read(EITHER.sub("", OPTIONAL.sub("", starter(kind))))
+    assert full.casing is not None
+    assert full.casing.elastic
+    assert full.casing.mass is None
+    assert sorted({name for bore in full.casing.bores for name in bore.seats}) == sorted(SEATS_OF[kind])
+    assert casing_reasons(full) == []
 
 
 @pytest.mark.property

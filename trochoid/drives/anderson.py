@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from trochoid.kinematics.types import Array
 
+MEANT = 0.3  # coefficient of friction up to which a solution is promised
 MEMORY = 6  # earlier steps that are mixed
 ROUNDS = 40
 
@@ -34,6 +35,16 @@ def fixed_points(
         for row in np.flatnonzero(left > settled):
             x[row] = _mixed([p[row] for p in places], [s[row] for s in steps], size[row])
     return x, left
+
+
+def unsettled(angle: float, left: float, coefficients: Mapping[str, float]) -> str:
+    """Return why a running drive has no solution at an input angle (rad), when so much is left of its forces."""
+    given = ", ".join(f"{name} = {value:g}" for name, value in coefficients.items())
+    return (
+        f"running with friction, at input angle {np.degrees(angle):.6g}°: friction and contact forces do not settle "
+        f"({left:.1e} of them is left) with {given}; the drive may lock (take coefficients up to {MEANT:g}), or be "
+        "loaded so little that forces drown in rounding (give a larger torque)"
+    )
 
 
 def _mixed(places: list[Array], steps: list[Array], size: Array) -> Array:

@@ -7,11 +7,13 @@ level tell, where strips are affordable. The mesh follows from the error that tw
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from trochoid.kinematics.errors import NotConverged
+from trochoid.kinematics.errors import NotConverged, TrochoidError
+from trochoid.scene import Scene
 
 MODEL_SHARE = 0.25  # of the tolerance that the model may take; the rest is the mesh's
 POSITIONS = 7  # at which level 0 is compared with strips; odd, so that few of them are alike
@@ -19,6 +21,7 @@ COARSEST = 8  # facets per lobe: with 6 the order of convergence is not yet seen
 FINEST = 64
 
 S = TypeVar("S")
+M = TypeVar("M")
 
 
 class TooCoarse(NotConverged):
@@ -85,6 +88,44 @@ def or_level0(best: Callable[[str | None], Chosen], named: str | None) -> tuple[
         if named is not None:
             raise
         return best("level0"), str(fault)
+
+
+def doubtful(doubt: str) -> Iterator[str]:
+    """Yield what a reader must know where `or_level0` took level 0, and why it did."""
+    if doubt:
+        yield (
+            "the pressure of some contacts could not be resolved, and level0 was taken, whose error is not known here: "
+            + doubt
+        )
+
+
+def unheeded(scene: Scene[Any]) -> Iterator[str]:
+    """Yield that nothing is chosen where a scene has a tolerance and closed forms alone."""
+    if not scene.has("elastic_contact") and scene.accuracy != type(scene.accuracy)():
+        yield 'the table [accuracy] does nothing without the effect "elastic_contact": all answers are closed forms'
+
+
+def coarsest(first: int, meshes: Callable[[int], M]) -> tuple[int, M | None]:
+    """Return the coarsest level from `first` on that thin walls allow, with its meshes; the finest without any."""
+    facets = first
+    while 2 * facets < FINEST:
+        with suppress(TrochoidError):
+            return facets, meshes(facets)
+        facets *= 2
+    return facets, None
+
+
+def first_given(given: int) -> int:
+    """Return the level that tells the error of the facets per lobe that a scene names."""
+    return max(3, given // 2)
+
+
+def climbed(first: int, given: int | None) -> tuple[int, ...]:
+    """Return the levels of a ladder, three at least: those of a run from `first` on, or those about a `given` one."""
+    found = [first]
+    while 2 * found[-1] <= FINEST or len(found) < 3:
+        found.append(given if given is not None and len(found) == 1 else 2 * found[-1])
+    return tuple(found)
 
 
 def doubled(first: int) -> tuple[int, ...]:

@@ -1,20 +1,44 @@
-"""Films as VTK files: a .vtu per body and frame, and a .pvd that collects them."""
+"""Films as VTK files: a .vtu per body and frame, and a .pvd that collects them and says how to look at them."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
-import numpy as np
+from trochoid.results.film import Film
+from trochoid.results.vtu import save_body
 
-from trochoid.kinematics.types import Array
-from trochoid.results.film import Field, Film
+__all__ = ["ENDING", "Listed", "Listing", "listed_files", "listing", "save", "save_body", "saved"]
 
 ENDING = ".pvd"
+_DEGREES = "deg"
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """A body in a .pvd of ours."""
+
+    name: str
+    path: Path
+    color: str
+    opacity: float
+
+
+@dataclass(frozen=True, slots=True)
+class Listing:
+    """What a .pvd of ours says of its film: `frames` are values, in `units`, and bodies."""
+
+    title: str
+    axis: str
+    units: str
+    shown: str
+    spatial: bool
+    seen_from: tuple[float, ...]
+    frames: tuple[tuple[float, tuple[Listed, ...]], ...]
 
 
 def save(film: Film, folder: Path) -> None:
@@ -26,18 +50,10 @@ def save(film: Film, folder: Path) -> None:
         for part, body in enumerate(bodies):
             name = f"{film.name}/{_file_name(body.name)}_{index:03d}.vtu"
             save_body(body, folder / name)
-            collection.append({"timestep": repr(round(time, 9)), "part": str(part), "file": name})
-    _save_collection(collection, folder / f"{film.name}{ENDING}")
-
-
-def save_body(body: Field, path: Path) -> None:
-    """Write one body: its nodes, cells and nodal data (float64, SI)."""
-    import meshio
-
-    cells: list[tuple[str, Any]] = [(body.shape, np.ascontiguousarray(body.cells.T))]
-    data = {name: _columns(name, values) for name, values in body.point_data.items()}
-    mesh = meshio.Mesh(_padded(body.points), cells, point_data=data)
-    meshio.vtu.write(str(path), mesh, binary=True, compression=None)
+            look = {"color": body.color, "opacity": f"{body.opacity:g}"} if film.spatial else {}
+            entry = {"timestep": repr(round(time, 9)), "part": str(part), "name": body.name, **look}
+            collection.append({**entry, "file": name})
+    _save_collection(film, collection, folder / f"{film.name}{ENDING}")
 
 
 def saved(folder: Path) -> Iterator[Path]:
@@ -51,46 +67,70 @@ def saved(folder: Path) -> Iterator[Path]:
 
 def listed_files(collection: Path) -> tuple[Path, ...]:
     """Return the .vtu files that a .pvd of ours names, in the folder of its name; none if it is not ours."""
+    root = _root(collection)
+    return () if root is None else tuple(sorted({body.path for _, body in _entries(root, collection)}))
+
+
+def listing(collection: Path) -> Listing:
+    """Return what a .pvd of ours says, also one of an earlier version, which names no bodies.
+
+    Raises ValueError where it is not ours.
+    """
+    root = _root(collection)
+    entries = () if root is None else tuple(_entries(root, collection))
+    if root is None or not entries:
+        raise ValueError(f"{collection} lists no film of ours")
+    frames: dict[float, list[Listed]] = {}
+    for time, body in entries:
+        frames.setdefault(time, []).append(body)
+    head = root.find("Collection")
+    said = {} if head is None else head.attrib
+    return Listing(
+        title=said.get("title", collection.stem),
+        axis=said.get("axis", "input angle"),
+        units=said.get("units", _DEGREES),
+        shown=said.get("shown", "von_mises"),
+        spatial=said.get("spatial") == "1",
+        seen_from=tuple(float(x) for x in said.get("seen_from", "1 -1 0.7").split()),
+        frames=tuple((time, tuple(bodies)) for time, bodies in frames.items()),
+    )
+
+
+def _root(collection: Path) -> ElementTree.Element | None:
     try:
-        sets = ElementTree.parse(collection).getroot().iter("DataSet")
+        return ElementTree.parse(collection).getroot()
     except (OSError, ElementTree.ParseError):
-        return ()
-    names = {entry.get("file", "") for entry in sets}
-    ours = re.compile(rf"{re.escape(collection.stem)}/[^/\\]+\.vtu")
-    return tuple(sorted(collection.parent / name for name in names if ours.fullmatch(name)))
+        return None
 
 
-def _columns(name: str, values: Array) -> Array:
-    """Return nodal values as VTK knows them: scalar, vector of 3, symmetric tensor xx yy zz xy yz xz."""
-    array = np.asarray(values, dtype=np.float64)
-    if array.ndim == 1:
-        return array
-    if name == "stress":
-        if array.shape[1] not in (4, 6):
-            raise ValueError(
-                f"stress has {array.shape[1]} components; it needs xx yy zz xy (4) or xx yy zz xy yz xz (6)"
+def _entries(root: ElementTree.Element, collection: Path) -> Iterator[tuple[float, Listed]]:
+    """Yield times and bodies of the data sets in the folder of the collection's name."""
+    ours = re.compile(rf"{re.escape(collection.stem)}/([^/\\]+)\.vtu")
+    for entry in root.iter("DataSet"):
+        found = ours.fullmatch(entry.get("file", ""))
+        if found:
+            name = entry.get("name") or found[1].rpartition("_")[0].replace("_", " ")
+            look = entry.get("color", "#b0c4de"), float(entry.get("opacity", "1"))
+            yield (
+                float(entry.get("timestep", "0")),
+                Listed(name, collection.parent / entry.get("file", ""), *look),
             )
-        return np.hstack([array, np.zeros((len(array), 6 - array.shape[1]))])
-    return _padded(array) if array.shape[1] == 2 else array
 
 
-def _padded(vectors: Array) -> Array:
-    array = np.asarray(vectors, dtype=np.float64)
-    return array if array.shape[1] == 3 else np.column_stack([array, np.zeros(len(array))])
-
-
-def _save_collection(entries: Sequence[dict[str, str]], path: Path) -> None:
+def _save_collection(film: Film, entries: Sequence[dict[str, str]], path: Path) -> None:
     root = ElementTree.Element("VTKFile", type="Collection", version="0.1", byte_order="LittleEndian")
-    collection = ElementTree.SubElement(root, "Collection")
+    collection = ElementTree.SubElement(
+        root,
+        "Collection",
+        title=film.title,
+        axis=film.axis.name,
+        units=_DEGREES if film.axis.units == "rad" else film.axis.units,
+        shown=film.shown,
+        spatial=str(int(film.spatial)),
+        seen_from=" ".join(f"{x:g}" for x in film.seen_from),
+    )
     for entry in entries:
-        ElementTree.SubElement(
-            collection,
-            "DataSet",
-            timestep=entry["timestep"],
-            group="",
-            part=entry["part"],
-            file=entry["file"],
-        )
+        ElementTree.SubElement(collection, "DataSet", {**entry, "group": ""})
     ElementTree.indent(root)
     ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
 

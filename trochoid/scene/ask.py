@@ -6,6 +6,8 @@ from typing import Annotated, Literal
 
 from trochoid.scene.fields import Angle, Fraction, Table, Whole
 
+MOST_FACETS = 200
+
 
 class Ask(Table):
     """[ask]: the quantities wanted, at how many positions of one turn of the input."""
@@ -19,5 +21,5 @@ class Accuracy(Table):
     """[accuracy]: the tolerance that picks the model, or the model itself."""
 
     tolerance: Fraction = 1e-2
-    model: Literal["springs", "level0", "strips", "slices"] | None = None
-    facets_per_lobe: Annotated[int, Whole(4, 200)] | None = None
+    model: Literal["springs", "level0", "strips", "slices", "rigid_wheel", "elastic_wheel"] | None = None
+    facets_per_lobe: Annotated[int, Whole(4, MOST_FACETS)] | None = None

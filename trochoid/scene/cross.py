@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 
 from trochoid.faults import Key, listed, meant, nearest, quoted, shown
 from trochoid.scene import units
+from trochoid.scene.casing_faults import casing_faults
 from trochoid.scene.effects import EFFECTS
 from trochoid.scene.materials import PREDEFINED
 from trochoid.scene.needs import (
@@ -15,10 +16,12 @@ from trochoid.scene.needs import (
     ELASTIC_MODELS,
     FRICTION_OF,
     KINDS,
+    MESHLESS,
     MODELS_OF,
     NEEDS,
     NOT_WITH_SPRINGS,
     QUANTITIES,
+    ROLLING_OF,
     UNDER_TORQUE,
 )
 from trochoid.scene.reading import read
@@ -31,16 +34,20 @@ def faults(raw: Mapping[str, Any]) -> Iterator[Found]:
     drive = _table(raw, "drive")
     effects = _effects(raw)
     yield from _material(drive, _table(raw, "materials"))
+    yield from _seats(("drive",), drive, _table(raw, "materials"))
     yield from _twice("effects", [(("effects", i, "type"), name) for i, name in effects])
     yield from _mounts(raw, effects)
     yield from _points(_table(raw, "casing"))
     kind = drive.get("type")
+    yield from casing_faults(raw, kind if isinstance(kind, str) else None)
     if isinstance(kind, str) and kind in KINDS:
         yield from _foreign_effects(kind, effects)
         yield from _foreign_friction(kind, raw, effects)
         yield from _accuracy(raw, kind)
-        yield from _model(_table(raw, "accuracy"), {name for _, name in effects} | _probable_effects(raw))
-        yield from _quantities(raw, kind, {name for _, name in effects} | _probable_effects(raw))
+        names = {name for _, name in effects} | _probable_effects(raw)
+        yield from _model(_table(raw, "accuracy"), names)
+        yield from _meshless(raw, names)
+        yield from _quantities(raw, kind, names)
 
 
 def kind_faults(raw: Mapping[str, Any]) -> Iterator[Found]:
@@ -90,6 +97,17 @@ def _material(drive: Mapping[str, Any], materials: Mapping[str, Any]) -> Iterato
         )
 
 
+def _seats(key: Key, table: Mapping[str, Any], materials: Mapping[str, Any]) -> Iterator[Found]:
+    """Look for seats of bearings anywhere in the drive, and for what they are made of."""
+    for name, inner in table.items():
+        if not isinstance(inner, Mapping):
+            continue
+        if name == "seat":
+            for place, message in _material(inner, materials):
+                yield (*key, "seat", *place[1:]), message
+        yield from _seats((*key, name), inner, materials)
+
+
 def _twice(what: str, named: Sequence[tuple[Key, str]]) -> Iterator[Found]:
     seen: set[str] = set()
     for key, name in named:
@@ -112,6 +130,20 @@ def _model(accuracy: Mapping[str, Any], effects: set[str]) -> Iterator[Found]:
     model = accuracy.get("model")
     if isinstance(model, str) and model in ELASTIC_MODELS and "elastic_contact" not in effects:
         yield ("accuracy", "model"), f"{quoted(model)} needs {_absent(['elastic_contact'])}"
+
+
+def _meshless(raw: Mapping[str, Any], effects: set[str]) -> Iterator[Found]:
+    """Yield the facets of a mesh that the scene does not have."""
+    given = _table(raw, "accuracy")
+    if "facets_per_lobe" not in given:
+        return
+    if given.get("model") in MESHLESS:
+        why = f"accuracy.model = {quoted(str(given['model']))} has no mesh"
+    elif "elastic_contact" not in effects:
+        why = 'without the effect "elastic_contact" there is no mesh'
+    else:
+        return
+    yield ("accuracy", "facets_per_lobe"), f"{why}; take it away"
 
 
 def _foreign_effects(kind: str, effects: Sequence[tuple[int, str]]) -> Iterator[Found]:
@@ -190,13 +222,29 @@ def _quantity(raw: Mapping[str, Any], kind: str, name: str, effects: set[str]) -
             else f"unknown quantity {quoted(name)}; {meant(name, tuple(offered))}"
         )
         return
+    if name == "bearing_life" and not _rolls(kind, _table(raw, "drive")):
+        places = listed([".".join(("drive", *path)) for path in ROLLING_OF[kind]])
+        yield f"{quoted(name)} needs a rolling bearing, which the scene lacks: a table with a kind, in {places}"
     lacking = [effect for effect in offered[name] if effect not in effects]
     if lacking:
         yield f"{quoted(name)} needs {_absent(lacking)}"
     if name in NOT_WITH_SPRINGS and _table(raw, "accuracy").get("model") == "springs":
         yield f'{quoted(name)} is not in accuracy.model = "springs" (rigid discs); take "level0" or "strips"'
     if name in UNDER_TORQUE and _no_torque(_table(raw, "operation").get("output_torque")):
-        yield f"{quoted(name)} needs operation.output_torque above 0: it is measured at shares of that torque"
+        yield f"{quoted(name)} needs operation.output_torque above 0: {UNDER_TORQUE[name]}"
+
+
+def _rolls(kind: str, drive: Mapping[str, Any]) -> bool:
+    """Whether a drive has a rolling bearing, by its kind or by a table."""
+    if kind not in ROLLING_OF:
+        return True
+    for path in ROLLING_OF[kind]:
+        table = drive
+        for name in path:
+            table = _table(table, name)
+        if "kind" in table:
+            return True
+    return False
 
 
 def _no_torque(given: object) -> bool:

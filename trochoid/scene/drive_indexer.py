@@ -12,6 +12,7 @@ from trochoid.scene.fields import (
     DriveTable,
     Fraction,
     Inertia,
+    Length,
     Measure,
     Play,
     PositiveLength,
@@ -49,11 +50,35 @@ class Wheel(Table):
     lock_stiffness: Torsion | None = None
 
 
+def _apart(far: float | None, info: ValidationInfo) -> float | None:
+    if "near_bearing" not in info.data:
+        return far
+    near = info.data["near_bearing"]
+    if (near is None) != (far is None):
+        raise fault("given, or missing, without the other of near_bearing and far_bearing; give both or none")
+    if near is not None and near == far:
+        raise fault("the same as near_bearing; two bearings in one place cannot hold a shaft")
+    return far
+
+
+class InputShaft(Table):
+    """[drive.input_shaft]: where the arm's shaft is held."""
+
+    near_bearing: Length | None = None
+    far_bearing: Length | None = Field(default=None, validate_default=True)
+
+    _both = field_validator("far_bearing")(_apart)
+
+
 class OutputShaft(Table):
     """[drive.output_shaft]: what the wheel drives, and the shaft between the two, rigid if it has no stiffness."""
 
     inertia: Inertia | None = None
     stiffness: Torsion | None = Field(default=None, validate_default=True)
+    near_bearing: Length | None = None
+    far_bearing: Length | None = Field(default=None, validate_default=True)
+
+    _both = field_validator("far_bearing")(_apart)
 
     @field_validator("stiffness")
     @classmethod
@@ -86,6 +111,7 @@ class IndexerDrive(DriveTable):
     dwell_tolerance: Tolerance = math.radians(0.1)
     pin: Pin = Pin()
     wheel: Wheel = Wheel()
+    input_shaft: InputShaft = InputShaft()
     output_shaft: OutputShaft = OutputShaft()
 
     @field_validator("pin_ratio")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import AfterValidator, Field, ValidationInfo, field_validator
+from pydantic import AfterValidator, Field, ValidationInfo, field_validator, model_validator
 
 from trochoid.scene.fields import (
     Angle,
@@ -20,6 +20,7 @@ from trochoid.scene.fields import (
     fault,
 )
 from trochoid.scene.model import Scene
+from trochoid.scene.rolling import RollingBearing, has_a_stiffness
 
 
 def _ascending(positions: tuple[float, float]) -> tuple[float, float]:
@@ -74,8 +75,11 @@ class InputShaft(Table):
     radius: PositiveLength
     length: PositiveLength
     bearing_positions: BearingPositions
-    bearing_stiffness: Stiffness
+    bearing_stiffness: Stiffness | None = None
+    bearing: RollingBearing | None = None
     mass: Mass | None = None
+
+    _held = model_validator(mode="after")(has_a_stiffness)
 
 
 class OutputFlange(Table):
@@ -84,9 +88,12 @@ class OutputFlange(Table):
     outer_radius: PositiveLength
     thickness: PositiveLength
     bearing_positions: BearingPositions
-    bearing_stiffness: Stiffness
+    bearing_stiffness: Stiffness | None = None
+    bearing: RollingBearing | None = None
     mass: Mass | None = None
     inertia: Inertia | None = None
+
+    _held = model_validator(mode="after")(has_a_stiffness)
 
 
 def _one_less_than_pins(data: dict[str, Any]) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Field, ValidationInfo, field_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from trochoid.scene import units
 from trochoid.scene.fields import (
@@ -19,6 +19,7 @@ from trochoid.scene.fields import (
     fault,
 )
 from trochoid.scene.model import Scene
+from trochoid.scene.rolling import RollingBearing, has_a_stiffness
 
 Member = Literal["sun", "ring", "carrier"]
 Shift = Annotated[float, Measure(units.NUMBER, least=-50.0, most=50.0)]
@@ -32,6 +33,9 @@ Torsion = Annotated[float, Measure(units.TILT, above=0.0)]
 Relief = Annotated[float, Measure(units.LENGTH, least=0.0, most=10.0)]
 PlaceError = Annotated[float, Measure(units.LENGTH, least=-10.0, most=10.0)]
 LeastRatio = Annotated[float, Measure(units.NUMBER, least=0.0, most=10.0)]
+
+
+USUAL_SEAT = 200000.0  # N/mm, of a planet on the carrier
 
 
 class RingCutter(Table):
@@ -64,8 +68,21 @@ class PlanetBody(Table):
 
     bore_radius: Size | None = None
     tip_relief: Relief = 0.0
-    bearing_stiffness: Stiffness = 2e8
+    bearing_stiffness: Stiffness | None = None
+    bearing: RollingBearing | None = None
     position_errors: tuple[PlaceError, ...] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _usual(cls, given: Any) -> Any:
+        """Take a usual stiffness where no rolling bearing stands in its place."""
+        if isinstance(given, dict) and given.get("bearing") is None:
+            return {"bearing_stiffness": USUAL_SEAT, **given}
+        return given
+
+    @model_validator(mode="after")
+    def _has_a_stiffness(self) -> PlanetBody:
+        return has_a_stiffness(self)
 
 
 class RingBody(Table):

@@ -22,18 +22,14 @@ from trochoid.scene.fields import (
 )
 from trochoid.scene.model import Scene
 from trochoid.scene.precessional_teeth import Rim, Rollers
+from trochoid.scene.rolling import RollingBearing, RollingTable
 
 NutationAngle = Annotated[float, Measure(units.ANGLE, least=1e-6, below=90.0)]
 PolarAngle = Annotated[float, Measure(units.ANGLE, above=0.0, most=90.0)]
 PinAngle = Annotated[float, Measure(units.ANGLE, above=0.0, below=90.0)]
 ProductOfInertia = Annotated[float, Measure(units.INERTIA)]
 TeethNumber = Annotated[int, Whole(2, 1000)]
-Elements = Annotated[int, Whole(3, 200)]
-ContactAngle = Annotated[float, Measure(units.ANGLE, above=0.0, below=90.0)]
-Load = Annotated[float, Measure(units.FORCE, above=0.0)]
-AxialLoad = Annotated[float, Measure(units.FORCE, least=0.0)]
 TiltStiffness = Annotated[float, Measure(units.TILT, above=0.0)]
-BearingKind = Literal["deep_groove", "angular_contact", "cylindrical", "needle", "tapered"]
 ROUNDING = 1e-9  # of a moment of inertia
 
 
@@ -89,43 +85,18 @@ class Counterweight(Table):
     product_of_inertia: ProductOfInertia = 0.0
 
 
-class Bearing(Table):
-    """[drive.bearing_a]: between crank and satellite; a rolling bearing by its sizes, or stiffnesses as given."""
+class Bearing(RollingTable):
+    """[drive.bearing_a]: between crank and satellite; a rolling bearing, or stiffnesses as given."""
 
-    kind: BearingKind | None = None
-    bore: PositiveLength | None = None
-    outside: PositiveLength | None = None
-    width: PositiveLength | None = None
-    clearance: Length = 0.0
-    contact_angle: ContactAngle | None = None
-    elements: Elements | None = None
-    element_diameter: PositiveLength | None = None
-    element_length: PositiveLength | None = None
-    radial_load: Load | None = None
-    axial_load: AxialLoad = 0.0
     radial_stiffness: Stiffness | None = None
     axial_stiffness: Stiffness | None = None
 
     @model_validator(mode="after")
     def _has_a_stiffness(self) -> Bearing:
-        if self.kind is None:
-            if self.radial_stiffness is None:
-                raise fault(
-                    "no stiffness; need radial_stiffness, or the kind of a rolling bearing with its bore, outside and "
-                    "width; without the table the bearing is rigid"
-                )
-            return self
-        sizes = {"bore": self.bore, "outside": self.outside, "width": self.width}
-        absent = [name for name, size in sizes.items() if size is None]
-        if absent:
-            raise fault(f'kind = "{self.kind}" needs {", ".join(absent)} too')
-        if self.bore is not None and self.outside is not None and not self.outside > self.bore:
+        if self.kind is None and self.radial_stiffness is None:
             raise fault(
-                f"given outside = {1e3 * self.outside:g} mm; need more than bore = {1e3 * self.bore:g} mm"
-            )
-        if self.kind in ("angular_contact", "tapered") and self.axial_load == 0.0:
-            raise fault(
-                f'kind = "{self.kind}" carries nothing without an axial load; give axial_load above 0 N'
+                "no stiffness; need radial_stiffness, or the kind of a rolling bearing with its bore, outside and "
+                "width; without the table the bearing is rigid"
             )
         return self
 
@@ -142,6 +113,12 @@ class Joint(Table):
 
     radial_stiffness: Stiffness
     bearing_stiffness: Stiffness | None = None
+
+
+class OutputBearing(RollingBearing):
+    """[drive.bearing_c]: behind O, what the output shaft turns in; one, or two alike that share the load."""
+
+    number: Annotated[int, Whole(1, 4)] = 1
 
 
 class OutputShaft(Table):
@@ -183,6 +160,7 @@ class PrecessionalDrive(DriveTable):
     bearing_a: Bearing | None = None
     bearing_b: Support | None = None
     joint_o: Joint | None = None
+    bearing_c: OutputBearing | None = None
     teeth: Teeth | None = None
     rollers: Rollers = Rollers()
     rim: Rim = Rim()
@@ -209,6 +187,18 @@ class PrecessionalDrive(DriveTable):
                 "bearing_stiffness needs the mass of the output shaft: the table [drive.output_shaft]"
             )
         return joint
+
+    @field_validator("bearing_c")
+    @classmethod
+    def _behind_a_joint(cls, bearing: OutputBearing | None, info: ValidationInfo) -> OutputBearing | None:
+        if bearing is not None and (
+            info.data.get("joint_o") is None or info.data.get("output_shaft") is None
+        ):
+            raise fault(
+                "the bearings C are behind the joint O and carry the output shaft: need the tables [drive.joint_o] and "
+                "[drive.output_shaft]"
+            )
+        return bearing
 
     @field_validator("teeth")
     @classmethod

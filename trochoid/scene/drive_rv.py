@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import AfterValidator, Field, ValidationInfo, field_validator
+from pydantic import AfterValidator, Field, ValidationInfo, field_validator, model_validator
 
 from trochoid.scene import units
 from trochoid.scene.fields import (
@@ -17,6 +17,7 @@ from trochoid.scene.fields import (
     fault,
 )
 from trochoid.scene.model import Scene
+from trochoid.scene.rolling import RollingBearing, has_a_stiffness
 
 PressureAngle = Annotated[float, Measure(units.ANGLE, least=14.0, most=30.0)]
 Shift = Annotated[float, Measure(units.NUMBER, least=-3.0, most=3.0)]
@@ -108,7 +109,10 @@ class Crankshaft(Table):
     radius: Size
     planet_position: Place
     bearing_positions: BearingPositions
-    bearing_stiffness: Stiffness
+    bearing_stiffness: Stiffness | None = None
+    bearing: RollingBearing | None = None
+
+    _held = model_validator(mode="after")(has_a_stiffness)
 
 
 class Pillars(Table):

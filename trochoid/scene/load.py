@@ -33,6 +33,7 @@ def read(text: str, overrides: Sequence[str | Override] = (), source: str = "sce
     parsed = [replacing.parse(each) if isinstance(each, str) else each for each in overrides]
     accepted = [each for each in parsed if isinstance(each, Override)]
     raw, unplaced = replacing.apply(toml_text.parse(text, source), accepted)
+    raw = _located(raw, Path(source).parent)
     scene, found = build(raw)
     faults = [each for each in parsed if isinstance(each, Fault)] + unplaced
     if found:
@@ -54,6 +55,14 @@ def build(raw: dict[str, Any]) -> tuple[Scene[Any] | None, list[tuple[Key, str]]
         found += [(key, text) for key, text in explained(error, model) if not (found and key[0] == "drive")]
     found += cross.faults(raw)
     return (None if found else scene), found
+
+
+def _located(raw: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Return the raw scene with its mesh file's place, which is relative to the scene's, made whole."""
+    casing = raw.get("casing")
+    if not isinstance(casing, dict) or not isinstance(file := casing.get("mesh_file"), str):
+        return raw
+    return {**raw, "casing": {**casing, "mesh_file": str(folder / file)}}
 
 
 def _kind(raw: dict[str, Any]) -> str:

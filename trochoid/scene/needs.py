@@ -24,6 +24,7 @@ QUANTITIES = (
     "power_loss",
     "bearing_loads",
     "bearing_stiffness",
+    "bearing_life",
     "reactions",
     "balance",
     "natural_frequencies",
@@ -58,6 +59,7 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "power_loss": ("friction",),
         "bearing_loads": (),
         "bearing_stiffness": ("bearing_compliance",),
+        "bearing_life": ("bearing_compliance",),
         "reactions": ("inertia",),
         "balance": (),
         "natural_frequencies": ("inertia",),
@@ -80,6 +82,8 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "torsional_stiffness": ("elastic_contact",),
         "lost_motion": ("elastic_contact",),
         "bearing_loads": ("elastic_contact",),
+        "bearing_stiffness": ("bearing_compliance",),
+        "bearing_life": ("bearing_compliance", "inertia"),
         "reactions": ("inertia",),
         "balance": (),
         "natural_frequencies": ("bearing_compliance", "inertia"),
@@ -105,7 +109,10 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "efficiency": ("elastic_contact", "friction"),
         "power_loss": ("elastic_contact", "friction"),
         "bearing_loads": ("elastic_contact",),
+        "bearing_stiffness": ("elastic_contact", "bearing_compliance"),
+        "bearing_life": ("elastic_contact", "bearing_compliance"),
         "reactions": ("elastic_contact", "inertia"),
+        "natural_frequencies": ("elastic_contact", "inertia"),
         "balance": (),
         "vibration_velocity": ("elastic_contact", "inertia", "casing_on_mounts"),
         "vibration_zone": ("elastic_contact", "inertia", "casing_on_mounts"),
@@ -126,6 +133,8 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "mesh_stiffness": ("elastic_contact",),
         "torsional_stiffness": ("elastic_contact",),
         "bearing_loads": (),
+        "bearing_stiffness": ("elastic_contact", "bearing_compliance"),
+        "bearing_life": ("elastic_contact", "bearing_compliance"),
         "reactions": (),
         "natural_frequencies": ("elastic_contact", "inertia"),
         "vibration_velocity": ("elastic_contact", "inertia", "casing_on_mounts"),
@@ -145,6 +154,7 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "torsional_stiffness": ("elastic_contact",),
         "dynamic_factor": ("elastic_contact", "inertia"),
         "residual_vibration": ("elastic_contact", "inertia"),
+        "natural_frequencies": ("elastic_contact", "inertia"),
         "reactions": ("inertia",),
         "mass": (),
     },
@@ -205,15 +215,31 @@ MODELS_OF: dict[str, tuple[str, ...]] = {
     "rv": ("level0", "strips"),
     "precessional": ("slices",),
     "planetary": ("level0", "strips"),
-    "indexer": (),
+    "indexer": ("rigid_wheel", "elastic_wheel"),
 }
-ELASTIC_MODELS = ("level0", "strips", "slices")
-UNDER_TORQUE = (
-    "lost_motion",
-    "backlash",
-    "torsion_curve",
-    "efficiency",
-    "power_loss",
-    "torsional_vibration",
-)  # operation.output_torque is their measure: the rated torque
+ELASTIC_MODELS = ("level0", "strips", "slices", "rigid_wheel", "elastic_wheel")
+MESHLESS = ("springs", "rigid_wheel")  # models without a mesh
+# quantities that mean nothing without operation.output_torque, and why
+UNDER_TORQUE = {
+    "lost_motion": "it is measured at shares of that torque",
+    "backlash": "the loop that it is read off goes up to that torque",
+    "torsion_curve": "the loop goes up to that torque",
+    "efficiency": "it is the share of the power that comes out, and nothing would",
+    "power_loss": "friction follows the forces in the contacts, and nothing would press them",
+    "torsional_vibration": "the drive swings on the stiffness that its contacts have under that torque",
+}
 NOT_WITH_SPRINGS = ("stress_max",)  # rigid discs on springs have no stress field
+
+# the places where a kind of drive presses its casing, which the bores of an elastic one hold
+SEATS_OF: dict[str, tuple[str, ...]] = {
+    "khv": ("ring", "input shaft A", "input shaft B", "output flange A", "output flange B"),
+    "rv": ("ring", "carrier A", "carrier B", "sun"),
+    "planetary": ("sun", "ring", "carrier"),
+    "precessional": ("fixed wheel", "bearing B", "bearings C", "motor"),
+}
+
+# the tables that a rolling bearing may stand in, of kinds of drive that have none of their own
+ROLLING_OF: dict[str, tuple[tuple[str, ...], ...]] = {
+    "precessional": (("bearing_a",), ("bearing_b",), ("bearing_c",)),
+    "planetary": (("planet", "bearing"),),
+}

@@ -25,6 +25,7 @@ QUANTITIES = answers(
             "torsional_stiffness",
         ),
         "answers_path": ("lost_motion", "backlash", "torsion_curve", "efficiency", "power_loss"),
+        "answers_bearings": ("bearing_life",),
         "answers_torsional": ("torsional_vibration",),
         "answers_dynamics": (
             "bearing_loads",

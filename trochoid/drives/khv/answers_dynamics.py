@@ -14,9 +14,9 @@ from trochoid.drives.khv.series import Series
 from trochoid.drives.khv.stages import Stages
 from trochoid.drives.khv.vibration import CasingVibration
 from trochoid.drives.mesh_error import Pair
-from trochoid.drives.vibration import velocity, zone_answer
+from trochoid.drives.vibration_answers import casing_note, velocity_parts, zone_answer
 from trochoid.kinematics.types import Array
-from trochoid.results.outcome import Quantity
+from trochoid.results.outcome import Parts, Quantity
 
 if TYPE_CHECKING:
     from trochoid.drives.khv.modes import NaturalModes
@@ -64,12 +64,17 @@ def _eccentric_load(s: Stages, i: int) -> Callable[[Series], Array]:
 
 def bearing_stiffness(s: Stages) -> Quantity:
     """Stiffness of the first eccentric bearing under its load, on a rigid ring and on the disc's elastic bore."""
-    parts = {"rigid_ring": _entries(s, s.bearing.map(lambda x: x.rigid))}
+    parts: dict[str, Quantity | Parts] = {"rigid_ring": _entries(s, s.bearing.map(lambda x: x.rigid))}
     if s.bearing.fine.elastic is not None:
         parts["elastic_seat"] = _entries(
             s, s.bearing.map(lambda x: x.rigid if x.elastic is None else x.elastic)
         )
-    return Quantity(parts=parts, note="first disc at the first position; rollers by ISO/TS 16281")
+    from trochoid.drives.khv.answers_bearings import rigid_ring, supports
+
+    note = "first disc at the first position; rollers by ISO/TS 16281"
+    if s.rolling:
+        note += "; of shaft and flange over a turn, ± what the loads of elastic discs would change"
+    return Quantity(parts={**parts, **rigid_ring(s), **supports(s)}, note=note)
 
 
 def _entries(s: Stages, matrix: Pair[Array]) -> Mapping[str, Quantity]:
@@ -132,23 +137,15 @@ def _frequency(i: int) -> Callable[[NaturalModes], float]:
 
 
 def vibration_velocity(s: Stages) -> Quantity:
-    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; the rigid load's worst one beside it."""
+    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; without each effect the worst beside it."""
     found = s.vibration
-    model = "rigid" if s.reactions.fine.response is None else "elastic"
-    parts: dict[str, Mapping[str, Quantity]] = {}
-    for i, point in enumerate(found.fine.elastic.points):
-        entries = {axis: number(s, found.map(_velocity(i, j)), "mm/s", model) for j, axis in enumerate("xyz")}
-        entries["worst"] = number(s, found.map(_velocity(i, None)), "mm/s", model)
-        entries["worst_rigid"] = number(s, found.map(_velocity(i, None, rigid=True)), "mm/s", "rigid")
-        parts[point.name] = entries
-    return Quantity(parts=parts, note=f"lines up to {found.fine.elastic.resolved_to:.0f} Hz are resolved")
 
+    def made(get: Callable[[CasingVibration], float], unit: str, model: str) -> Quantity:
+        return number(s, found.map(get), unit, model)
 
-def _velocity(point: int, axis: int | None, rigid: bool = False) -> Callable[[CasingVibration], float]:
-    def get(found: CasingVibration) -> float:
-        return velocity(found.rigid if rigid else found.elastic, point, axis)
-
-    return get
+    best = "rigid" if s.reactions.fine.response is None else "elastic"
+    said = f"lines up to {found.fine.elastic.resolved_to:.0f} Hz are resolved{casing_note(found.fine)}"
+    return Quantity(parts=velocity_parts(found.fine, made, best), note=said)
 
 
 def vibration_zone(s: Stages) -> Quantity:

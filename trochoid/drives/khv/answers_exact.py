@@ -115,14 +115,15 @@ def _settled(vectors: Array) -> float:
 
 def mass(s: Stages) -> Quantity:
     """Masses of all members, and the specific mass in kg per N·m of output torque."""
+    from trochoid.drives.casing import casing_mass
     from trochoid.drives.khv.mass import total_mass
 
     parts = total_mass(s.feasible, s.masses)
-    casing = s.scene.casing.mass if s.scene.casing is not None else 0.0
+    casing, given = casing_mass(s.scene, lambda: s.casing_body)
     whole = sum(parts.values()) + casing
     torque = s.scene.operation.output_torque
     entries = {name: Quantity(value, "kg", None, "exact") for name, value in parts.items()}
-    entries["casing"] = Quantity(casing, "kg", None, "given")
+    entries["casing"] = Quantity(casing, "kg", None, given)
     entries["total"] = Quantity(whole, "kg", None, "exact")
     note = "specific mass needs a torque above zero"
     if torque > 0:

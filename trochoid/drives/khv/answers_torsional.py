@@ -20,11 +20,10 @@ def torsional_vibration(s: Stages) -> Quantity:
     if found is None:
         return Quantity("free within its play", note="at some input angle nothing resists the driven member")
     made, (least, most) = found.pendulum, found.torques
-    swing = float(np.ptp(found.motion.deflection))
     worst = int(np.argmax(found.up))
     values = {
         "natural_frequency": (made.natural_frequency, "Hz"),
-        "peak_to_peak": (swing / ARCSEC, "arcsec"),
+        "peak_to_peak": (found.swing / ARCSEC, "arcsec"),
         "torque_min": (least, "N*m"),
         "torque_max": (most, "N*m"),
         "dynamic_factor": (most / made.torque, ""),

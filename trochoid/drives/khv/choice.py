@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from trochoid.drives import choosing
 from trochoid.drives.choosing import POSITIONS, Chosen
 from trochoid.drives.khv.estimate import STIFFNESS, differences, worst_error
-from trochoid.kinematics.errors import NotConverged
 
 if TYPE_CHECKING:
     from trochoid.drives.khv.bodies import Level
@@ -35,15 +34,9 @@ def model_error(design: Design, level: Level) -> float:
 
     The stiffness is left out: that of strips moves by 1e-3 as they come into contact one by one, that of level 0
     is the derivative of its twist. Raises NotConverged where strips find no solution, as where surfaces conform:
-    nobody knows then how wrong Hertz is.
+    nobody knows then how wrong Hertz is (see `choosing.or_level0`).
     """
     from trochoid.drives.khv.series import solve_series
 
-    try:
-        found, true = (solve_series(design, rung, level.elastic, POSITIONS) for rung in ("level0", "strips"))
-    except NotConverged as fault:
-        raise NotConverged(
-            f'no model can be chosen, for level0 cannot be compared with strips: {fault}; accuracy.model = "level0" '
-            "takes Hertz's pressure all the same, with an error that nobody knows"
-        ) from fault
+    found, true = (solve_series(design, rung, level.elastic, POSITIONS) for rung in ("level0", "strips"))
     return max(size for name, size in differences(true, found).items() if name != STIFFNESS)

@@ -97,9 +97,9 @@ def springs(design: Design, motions: Layout) -> Array:
     total = np.zeros((len(motions.names),) * 2)
     if motions.floating:
         for member, table in (("shaft", design.drive.input_shaft), ("output", design.drive.output_flange)):
-            for z in table.bearing_positions:
+            for z, stiffness in zip(table.bearing_positions, design.supports[member], strict=True):
                 at = motions.rows(member, z)[:2]
-                total += table.bearing_stiffness * at.T @ at
+                total += stiffness * at.T @ at
     return total
 
 
@@ -221,13 +221,29 @@ def roller_seat(design: Design) -> RollerSeat:
     )
 
 
-def nominal_roller_load(design: Design) -> float:
+def side_slopes(design: Design, rung: str) -> dict[str, float]:
+    """Return by families how their round sides change with the flange's torque, m/N per N·m: rollers have the seat of
+    a typical load.
+    """
+    if rung == "springs" or not layout(design, rung).floating or not design.flange_torque:
+        return {}
+    seat, small = roller_seat(design), 1e-4 * design.flange_torque
+    law = PowerLaw(seat.constant, EXPONENT)
+    more, less = (
+        seat.seat_for_seat(law, nominal_roller_load(design, design.flange_torque + step))
+        for step in (small, -small)
+    )
+    return {f"bearing{i}": (more - less) / (2.0 * small) for i in range(len(design.discs))}
+
+
+def nominal_roller_load(design: Design, torque: float | None = None) -> float:
     """Return a typical load of a loaded roller in N: Stribeck's 4/Z of a disc's bearing force.
 
-    That force is √2·T/(e z_c) and the inertia of the disc.
+    That force is √2·T/(e z_c) and the inertia of the disc; T that of the operation unless given.
     """
     flank = design.flank
-    force = np.sqrt(2) * design.flange_torque / (len(design.discs) * flank.eccentricity * flank.lobes)
+    torque = design.flange_torque if torque is None else torque
+    force = np.sqrt(2) * torque / (len(design.discs) * flank.eccentricity * flank.lobes)
     force += flank.eccentricity * design.crank_speed**2 * design.eccentric_mass
     return roller_seat(design).typical_load(float(force))
 

@@ -10,6 +10,7 @@ import numpy as np
 from trochoid.drives.khv import entries as show
 from trochoid.drives.khv.entries import ANGLE, Entries, entry, named, numbered
 from trochoid.drives.khv.stages import Stages
+from trochoid.drives.vibration_answers import comparison
 from trochoid.dynamics.spectrum import harmonics
 from trochoid.kinematics.types import Array
 
@@ -260,4 +261,5 @@ def _vibration(stages: Stages) -> Entries:
         "vibration_velocity_rigid": entry(dims, rigid, "m/s", f"velocity {by_rigid}"),
         "vibration_rms": entry(dims[1:], found.elastic.rms, "m/s", f"rms velocity, {band}"),
         "vibration_rms_rigid": entry(dims[1:], found.rigid.rms, "m/s", f"rms velocity {by_rigid}, {band}"),
+        **comparison(found),
     }

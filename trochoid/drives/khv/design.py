@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
@@ -14,6 +15,7 @@ from trochoid.kinematics.types import Array
 from trochoid.scene.drive_khv import KhvDrive, KhvScene
 
 if TYPE_CHECKING:
+    from trochoid.drives.khv.bearings import Bearings
     from trochoid.geometry.mass import Solid
     from trochoid.geometry.outline import Outline
 
@@ -26,7 +28,7 @@ class Design:
     """The drive as the wings see it, in SI.
 
     `modification` and the plays (in m, of one side) are zero unless the scene lists the effect "clearance";
-    `hole_angles` of each distinct body.
+    `hole_angles` of each distinct body; `supported`: stiffnesses to try in the place of `supports`.
     """
 
     scene: KhvScene
@@ -38,6 +40,7 @@ class Design:
     discs: tuple[Disc, ...]
     hole_angles: tuple[float, ...]
     speeds: Speeds
+    supported: Mapping[str, tuple[float, float]] | None = None
 
     @property
     def drive(self) -> KhvDrive:
@@ -48,6 +51,23 @@ class Design:
     def arc(self) -> ArcLength:
         """Arc length along the flank."""
         return ArcLength(self.flank)
+
+    @cached_property
+    def bearings(self) -> Bearings:
+        """Bearings of shaft and flange; rolling ones without a given stiffness are solved for. Raises Infeasible."""
+        from trochoid.drives.khv.bearings import bearings
+
+        return bearings(self)
+
+    @property
+    def supports(self) -> Mapping[str, tuple[float, float]]:
+        """Radial stiffness of the bearings A and B of "shaft" and "output", N/m."""
+        from trochoid.drives.khv.bearings import given
+
+        if self.supported is not None:
+            return self.supported
+        known = {member: pair for member, pair in given(self).items() if pair is not None}
+        return known if len(known) == 2 else self.bearings.stiffness
 
     @cached_property
     def eccentric_mass(self) -> float:

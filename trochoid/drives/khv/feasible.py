@@ -27,7 +27,21 @@ def faults(design: Design) -> tuple[str, ...]:
     found += output_pin_faults(design.hole_radius, d.output_pins.roller_radius, d.eccentricity)
     found += stack_faults([disc.z for disc in design.discs], d.face_width)
     found += bearing_faults(d.bore_radius, d.eccentric_bearing.rollers, d.eccentric_bearing.roller_radius)
-    return tuple(dict.fromkeys(found + _rollers(design) + _shaft(design) + _ring(design)))
+    found += _rollers(design) + _shaft(design) + _ring(design) + _bearings(design)
+    return tuple(dict.fromkeys(found))
+
+
+def _bearings(design: Design) -> tuple[str, ...]:
+    """The rolling bearings of shaft and flange."""
+    tables = {
+        "input_shaft.bearing": design.drive.input_shaft.bearing,
+        "output_flange.bearing": design.drive.output_flange.bearing,
+    }
+    if not design.scene.has("bearing_compliance") or not any(tables.values()):
+        return ()
+    from trochoid.drives.rolling import faults as rolling_faults
+
+    return rolling_faults(tables)
 
 
 def _rollers(design: Design) -> tuple[str, ...]:

@@ -57,8 +57,8 @@ NEVER_SIMULATED = {
         "make a drive softer and load the discs at their edges."
     ),
     "elasticity of ring and housing": (
-        "The ring keeps its pins on an exact circle, and the casing is rigid: a thin ring makes a drive softer "
-        "and spreads the load over other pins."
+        "The ring keeps its pins on an exact circle, and no casing gives way under the members: a thin ring makes a "
+        "drive softer and spreads the load over other pins."
     ),
     "bending and torsion of the shafts": (
         "Input shaft and output flange move in their bearings as rigid bodies: their own wind-up adds to the one "

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from trochoid.clock import Clock
-from trochoid.drives.choosing import FINEST
+from trochoid.drives.choosing import Chosen, climbed, first_given, or_level0
 from trochoid.drives.khv import headline
 from trochoid.drives.khv.choice import choose
 from trochoid.drives.khv.plan import STAGES_OF
@@ -84,11 +84,7 @@ def ladder(scene: KhvScene, clock: Clock) -> Ladder:
 def levels(stages: Stages) -> tuple[int, ...]:
     """Return the mesh levels: those of a run, or about the facets per lobe that the scene names."""
     given = stages.scene.accuracy.facets_per_lobe
-    first = stages.coarsest()[0] if given is None else stages.first_given(given)
-    found = [first]
-    while 2 * found[-1] <= FINEST or len(found) < 3:
-        found.append(given if given is not None and len(found) == 1 else 2 * found[-1])
-    return tuple(found)
+    return climbed(stages.coarsest()[0] if given is None else first_given(given), given)
 
 
 def _pick(base: Stages, solved: Callable[[str, int | None], Any]) -> Pick:
@@ -98,13 +94,17 @@ def _pick(base: Stages, solved: Callable[[str, int | None], Any]) -> Pick:
         solved(rung, None)
         return Pick(rung, None, None, "", (), True)
     given, all_levels = accuracy.facets_per_lobe, levels(base)
-    chosen = choose(
-        accuracy.tolerance if given is None else float("inf"),
-        all_levels if given is None else all_levels[:2],
-        lambda name, level: solved(name, level).contact.fine,
-        lambda: base.model_error(solved("level0", all_levels[0]).contact.level),
-        rung,
-    )
+
+    def best(rung: str | None) -> Chosen:
+        return choose(
+            accuracy.tolerance if given is None else float("inf"),
+            all_levels if given is None else all_levels[:2],
+            lambda name, level: solved(name, level).contact.fine,
+            lambda: base.model_error(solved("level0", all_levels[0]).contact.level),
+            rung,
+        )
+
+    chosen, _ = or_level0(best, rung)
     named = rung is not None or given is not None
     error = chosen.error + chosen.model_error
     return Pick(chosen.rung, chosen.levels[-1], error, chosen.of, chosen.levels, named)
@@ -154,4 +154,5 @@ def repeated(series: Series) -> Series:
         bearing=None if series.bearing is None else touches(series.bearing),
         motion=twice(series.motion),
         stiffness=twice(series.stiffness),
+        wandering=twice(series.wandering),
     )

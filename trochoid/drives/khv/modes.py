@@ -15,13 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from trochoid.drives.khv.design import Design
+from trochoid.drives.khv.eccentric import mass_matrix, on_the_eccentric, pairs, turning
 from trochoid.drives.khv.mass import Masses
-from trochoid.drives.khv.reactions import frames, mass_matrix
 from trochoid.drives.khv.series import Series
 from trochoid.drives.modes import CLOSE, Mode, campbell_plot, heard, shares
+from trochoid.dynamics.elastic import departure
 from trochoid.dynamics.system import System
 from trochoid.dynamics.whirl import whirl
-from trochoid.kinematics.types import Array, frozen
+from trochoid.kinematics.types import ComplexArray, frozen
 from trochoid.results.plot import Plot
 
 SPEEDS = 25
@@ -39,97 +40,60 @@ MEMBERS = {"shaft": "input shaft", "output": "output flange"}
 class NaturalModes:
     """Modes at the speed of operation by rising frequency; those that play leaves `free` have none.
 
-    `stiffness_variation` is the largest departure of the stiffness from its mean over the turn, relative.
+    `stiffness_variation` is the largest departure of the stiffness from its mean over the turn, relative.  `shapes`
+    (k, modes) on the motions `names` (k), as the eccentric sees them.
     """
 
     modes: tuple[Mode, ...]
     free: int
     stiffness_variation: float
+    names: tuple[str, ...]
+    shapes: ComplexArray
 
 
 def natural_modes(design: Design, series: Series, masses: Masses) -> NaturalModes:
     """Return the modes at the scene's speed and torque."""
-    modes = _modes(assembled(design, series, masses), design.crank_speed)
-    return NaturalModes(modes, len(series.names) - len(modes), _variation(_on_the_eccentric(series)))
+    modes, shapes = _modes(assembled(design, series, masses), design.crank_speed)
+    return NaturalModes(
+        modes, len(series.names) - len(modes), departure(on_the_eccentric(series)[1]), series.names, shapes
+    )
 
 
-def _modes(at: Callable[[float], System], speed: float) -> tuple[Mode, ...]:
-    """Return the modes at a speed of the eccentric (rad/s) by rising frequency."""
+def _modes(at: Callable[[float], System], speed: float) -> tuple[tuple[Mode, ...], ComplexArray]:
+    """Return the modes at a speed of the eccentric (rad/s) by rising frequency, and their shapes (k, modes)."""
     system = at(speed)
     found, mass = whirl(system), np.diag(system.mass)
     names = [spoken(name) for name in system.names]
-    pairs = np.array(_pairs(system.names), dtype=np.int64).reshape(-1, 2)
+    across = np.array(pairs(system.names), dtype=np.int64).reshape(-1, 2)
     alone = np.array([i for i, name in enumerate(system.names) if name.endswith("rotation")])
     made = []
     for i, own in enumerate(found.frequency):
         shape = found.shapes[:, i]
         frequency, turns = heard(
-            shape[pairs], mass[pairs[:, 0]], shape[alone], mass[alone], float(own), speed
+            shape[across], mass[across[:, 0]], shape[alone], mass[alone], float(own), speed
         )
         made.append(Mode(frequency, shares(mass * np.abs(shape) ** 2, names), turns))
-    return tuple(sorted(made, key=lambda mode: mode.frequency))
+    order = sorted(range(len(made)), key=lambda i: made[i].frequency)
+    return tuple(made[i] for i in order), found.shapes[:, order]
 
 
 def assembled(design: Design, series: Series, masses: Masses) -> Callable[[float], System]:
     """Return crank speed (rad/s) → the undamped system on the motions of the series, in the frame of the eccentric."""
-    stiffness = _on_the_eccentric(series).mean(axis=0)
+    stiffness = on_the_eccentric(series)[1].mean(axis=0)
     stiffness = 0.5 * (stiffness + stiffness.T)
     mass = mass_matrix(design, series.names, masses)
-    gyroscopic, centrifugal = _turning(design, series.names, masses, mass)
+    frame = turning(design, series.names, masses)
 
     def at(speed: float) -> System:
         return System(
             frozen(mass),
             frozen(np.zeros_like(mass)),
-            frozen(stiffness + speed**2 * centrifugal),
-            frozen(speed * gyroscopic),
+            frozen(stiffness + speed**2 * frame.centrifugal),
+            frozen(speed * frame.gyroscopic),
             tuple(series.names),
         )
 
     return at
-
-
-def _on_the_eccentric(series: Series) -> Array:
-    """Return the stiffness (n, k, k) over a turn, as the turning eccentric sees it."""
-    turned = frames(series.names, -series.crank)
-    return np.asarray(np.einsum("nij,njk,nlk->nil", turned, series.stiffness, turned)[:-1])
-
-
-def _pairs(names: tuple[str, ...]) -> list[tuple[int, int]]:
-    """Return the places of the motions x and y, tilt_x and tilt_y, of each member."""
-    found = []
-    for first, second in (("x", "y"), ("tilt_x", "tilt_y")):
-        for name in names:
-            member, motion = name.split(".")
-            if motion == first:
-                found.append((names.index(name), names.index(f"{member}.{second}")))
-    return found
-
-
-def _turning(design: Design, names: tuple[str, ...], masses: Masses, mass: Array) -> tuple[Array, Array]:
-    """Return gyroscopic and centrifugal matrices (k, k) for 1 rad/s of the eccentric, as in dynamics.turning.
-
-    Across: 2 m Ω × and −m Ω²; tilting: (2 J Ω − H) × and −(J Ω − H) Ω with the momentum H about z.
-    """
-    gyroscopic, centrifugal = np.zeros((2, len(names), len(names)))
-    momenta = {"shaft": masses.shaft.axial_inertia}
-    if "output.rotation" in names:
-        place = names.index("output.rotation")
-        momenta["output"] = float(mass[place, place]) * float(design.speeds.members["output"])
-    for x, y in _pairs(names):
-        member, motion = names[x].split(".")
-        momentum = momenta.get(member, 0.0) if motion == "tilt_x" else 0.0
-        gyroscopic[x, y] = -(2.0 * mass[x, x] - momentum)
-        gyroscopic[y, x] = -gyroscopic[x, y]
-        centrifugal[x, x] = centrifugal[y, y] = -(mass[x, x] - momentum)
-    return gyroscopic, centrifugal
-
-
-def _variation(stiffness: Array) -> float:
-    mean = stiffness.mean(axis=0)
-    size = np.sqrt(np.abs(np.diag(mean)))
-    scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)
-    return float(np.linalg.norm((stiffness - mean) * np.outer(scale, scale), ord=2, axis=(1, 2)).max())
 
 
 def spoken(name: str) -> str:
@@ -166,7 +130,7 @@ def campbell(design: Design, series: Series, masses: Masses) -> Plot:
     """Draw the natural frequencies over the input speed."""
     at, orders = assembled(design, series, masses), lines(design)
     speeds = np.linspace(0.0, 2.0 * design.crank_speed, SPEEDS)
-    rows = [[mode.frequency for mode in _modes(at, float(speed))] for speed in speeds]
+    rows = [[mode.frequency for mode in _modes(at, float(speed))[0]] for speed in speeds]
     count = min(len(row) for row in rows)
     frequencies = np.array([row[:count] for row in rows]).reshape(len(rows), count)
     most = 3.0 * max(orders.values()) * speeds[-1] / (2.0 * np.pi)

@@ -8,15 +8,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from trochoid.drives.choosing import doubtful
 from trochoid.drives.gathering import begun, timed
 from trochoid.drives.khv import headline
-from trochoid.drives.khv.plan import WHY
+from trochoid.drives.khv.plan import WHY, rolls
 from trochoid.drives.khv.stages import Stages
+from trochoid.drives.planning import with_casing, with_supports
+from trochoid.drives.vibration_answers import casing_checks
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Check, Outcome, Quantity
 
 if TYPE_CHECKING:
     from trochoid.drives.khv.series import Series
+    from trochoid.results.film import Film
     from trochoid.results.plot import Plot
 
 BALANCE = 1e-9
@@ -25,7 +29,8 @@ BALANCE = 1e-9
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but the figures' own."""
     ran = tuple(stages.clock.seconds)
-    words = begun(stages, quantities, WHY, headline, headline.not_simulated(stages.scene))
+    why, _ = with_supports(rolls(stages.scene), *with_casing(stages.scene, WHY, {}))
+    words = begun(stages, quantities, why, headline, headline.not_simulated(stages.scene))
     if "contact" in ran:
         words = replace(words, checks=checks(stages), warnings=warnings(stages), **_pictures(stages, ran))
     if "reactions" in ran:
@@ -42,9 +47,17 @@ def _pictures(stages: Stages, ran: tuple[str, ...]) -> dict[str, Any]:
         return {
             "dataset": dataset(stages, ran),
             "drawing": drawing(stages),
-            "films": (stress_film(stages),) if "stress" in ran else (),
+            "films": (*((stress_film(stages),) if "stress" in ran else ()), *_mode_films(stages, ran)),
             "plots": tuple(_plots(stages, ran)),
         }
+
+
+def _mode_films(stages: Stages, ran: tuple[str, ...]) -> tuple[Film, ...]:
+    if "modes" not in ran:
+        return ()
+    from trochoid.drives.khv.mode_shapes import films
+
+    return films(stages.design, stages.modes.fine)
 
 
 def _plots(stages: Stages, ran: tuple[str, ...]) -> Iterator[Plot]:
@@ -78,6 +91,11 @@ def checks(stages: Stages) -> tuple[Check, ...]:
                 "reactions on the casing sum to the members' inertia", stages.reactions.fine.residual, BALANCE
             )
         )
+        if stages.reactions.fine.response is not None:
+            work = stages.reactions.fine.work
+            found.append(Check.within("work on the elastic motion is what damping takes", work, BALANCE))
+    if "vibration" in stages.clock.seconds:
+        found += casing_checks(stages.vibration.fine)
     return tuple(found)
 
 
@@ -152,6 +170,8 @@ def warnings(stages: Stages) -> tuple[str, ...]:
             'the effect "elastic_contact" is not listed: discs are rigid and every contact is a spring (springs)'
         )
     ran = stages.clock.seconds
+    if "contact" in ran:
+        said += doubtful(stages.contact.doubt)
     if "reactions" in ran:
         found = stages.reactions.fine
         if found.mismatch > 1e-3:

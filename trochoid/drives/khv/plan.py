@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from trochoid.drives.planning import casing_cost, with_casing, with_supports
 from trochoid.plan import Plan, PlannedStage
 from trochoid.scene.drive_khv import KhvScene
 from trochoid.scene.effects import AnyEffect, Friction
@@ -27,6 +28,7 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "power_loss": (*_CONTACT, "losses"),
     "bearing_loads": _CONTACT,
     "bearing_stiffness": (*_CONTACT, "bearing"),
+    "bearing_life": _CONTACT,
     "reactions": (*_CONTACT, "mass", "reactions"),
     "balance": ("kinematics", "geometry", "mass"),
     "natural_frequencies": (*_CONTACT, "mass", "modes"),
@@ -60,9 +62,22 @@ POSITION = {
 }  # seconds for 20 pins, 8 holes, 16 rollers and two discs
 
 
+def rolls(scene: KhvScene) -> bool:
+    """Whether rolling bearings hold shaft or flange."""
+    tables = (scene.drive.input_shaft.bearing, scene.drive.output_flange.bearing)
+    return scene.has("bearing_compliance") and tables != (None, None)
+
+
+def seats(scene: KhvScene) -> int:
+    """Return how many of their tables have a flexible seat."""
+    tables = (scene.drive.input_shaft.bearing, scene.drive.output_flange.bearing)
+    return sum(1 for table in tables if table is not None and table.seat is not None)
+
+
 def plan(scene: KhvScene, rung: str, facets: int) -> Plan:
     """Return what a run would do; `facets` per lobe of the coarser of the two levels it would start with."""
-    needed = {stage for name in scene.ask.quantities for stage in STAGES_OF[name]}
+    why, stages_of = with_supports(rolls(scene), *with_casing(scene, WHY, STAGES_OF, ("mass",)))
+    needed = {stage for name in scene.ask.quantities for stage in stages_of[name]}
     if rung == "springs":
         needed -= {"mesh", "bodies"}
     d = scene.drive
@@ -77,15 +92,18 @@ def plan(scene: KhvScene, rung: str, facets: int) -> Plan:
         "torsion": contacts * (3.0 if scene.friction is not None else 0.5),
         "losses": contacts * 0.7,
         "stress": 0.35 * d.discs,
+        "supports": 0.7 + 0.5 * seats(scene),
         "reactions": 0.1,
         "modes": 0.05,
         "torsional": 2.0,
         "vibration": 0.02,
     }
-    memory = {"bodies": 120 + 4e-4 * stations**2, "contact": 150 + 4e-4 * stations**2}
+    casing_seconds, casing_memory = casing_cost(scene)
+    seconds |= casing_seconds
+    memory = casing_memory | {"bodies": 120 + 4e-4 * stations**2, "contact": 150 + 4e-4 * stations**2}
     stages = tuple(
-        PlannedStage(name, why, seconds.get(name, 0.01), memory.get(name, 100.0), name in needed)
-        for name, why in WHY.items()
+        PlannedStage(name, said, seconds.get(name, 0.01), memory.get(name, 100.0), name in needed)
+        for name, said in why.items()
     )
     return Plan(stages, tuple(map(_named, scene.effects)), scene.ask.quantities, rung)
 

@@ -8,18 +8,22 @@ every stiffness growing the second becomes the first.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from trochoid.drives.khv.contact import Layout, centrifugal
 from trochoid.drives.khv.design import Design
+from trochoid.drives.khv.eccentric import frames, mass_matrix, momenta, on_the_eccentric, turning
 from trochoid.drives.khv.mass import Masses
 from trochoid.drives.khv.series import Series
-from trochoid.dynamics.elastic import Response, explain, respond
+from trochoid.dynamics.elastic import Frame, Response, explain, respond
+from trochoid.dynamics.floquet import fail_if_growing
+from trochoid.dynamics.hill import rate, varied
 from trochoid.dynamics.newton_euler import support_reactions
-from trochoid.dynamics.spectrum import close_turn
+from trochoid.dynamics.spectrum import close_turn, harmonics, synthesize
 from trochoid.dynamics.supports import Support, support_forces
+from trochoid.dynamics.work import unmet
 from trochoid.dynamics.wrench import Wrench, couple, total, wrench
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, frozen
@@ -32,9 +36,10 @@ class Reactions:
     """Over n positions of one input turn, in the fixed frame.
 
     `rigid` and `elastic` by member: reactions (n, 2 bearings, 2) on it in N; `eccentric` (n, d, 2) force of
-    the discs on the shaft; `casing` and `casing_rigid`: resultant on the casing. `mismatch` is how far the
-    record is from closing after one turn, relative; `residual` the difference between the sum of all forces
-    on the casing and the members' inertia, relative to the bearing forces.
+    the discs on the shaft, `ring` (n, d, 2) on the ring, of rigid members; `casing` and `casing_rigid`: resultant
+    on the casing. `response` has axes that stand still. `mismatch` is how far the record is from closing after one
+    turn, relative; `residual` the difference between the sum of all forces on the casing and the members' inertia,
+    relative to the bearing forces; `work`: what the work on the elastic motion differs from what damping takes.
     """
 
     angle: Array
@@ -47,12 +52,14 @@ class Reactions:
     reason: str
     mismatch: float
     residual: float
+    ring: Array
+    work: float = 0.0
 
 
 def reactions(design: Design, series: Series, masses: Masses, damping: float) -> Reactions:
     """Return rigid reactions and, when bearings are compliant, stiffness-aware ones.
 
-    Raises TrochoidError for fewer than 3 positions.
+    Raises TrochoidError for fewer than 3 positions; NotConverged where the varying stiffness excites itself.
     """
     if len(series.angle) < 4:
         raise TrochoidError("reactions over a turn need at least 3 positions: raise ask.positions")
@@ -68,10 +75,12 @@ def reactions(design: Design, series: Series, masses: Masses, damping: float) ->
     }
     size = float(np.abs(eccentric).max(initial=0.0)) or 1.0
     casing_rigid = wrench(_on_axis(z), close_turn(inertia)[0])
-    residual = _residual(design, rigid, close_turn(ring)[0], casing_rigid, z, size)
+    on_ring, _ = close_turn(ring)
+    residual = _residual(design, rigid, on_ring, casing_rigid, z, size)
     layout = Layout(series.names, True, True)
-    response, elastic, casing, reason = (
+    response, work, elastic, casing, reason = (
         None,
+        0.0,
         None,
         casing_rigid,
         "bearings are rigid in this scene: there is nothing to feed back",
@@ -82,7 +91,7 @@ def reactions(design: Design, series: Series, masses: Masses, damping: float) ->
             "have a meaning"
         )
     elif "shaft.x" in series.names:
-        response = _response(design, series, masses, damping, turn)
+        response, work = _response(design, series, masses, damping)
         elastic = {m: rigid[m] + _change(design, layout, m, response) for m in MEMBERS}
         casing = total([casing_rigid, _inertia_wrench(design, series.names, response.inertia)])
         reason = explain(response, [_spoken(name) for name in series.names])
@@ -97,7 +106,35 @@ def reactions(design: Design, series: Series, masses: Masses, damping: float) ->
         reason,
         float(np.abs(mismatch).max() / size),
         residual,
+        frozen(on_ring),
+        work,
     )
+
+
+def on_casing(design: Design, found: Reactions, model: str) -> dict[str, Wrench]:
+    """Return what the casing feels by a model, "rigid" or "elastic", by the names of the places (needs.SEATS_OF).
+
+    The discs' force on the ring by elastic members is what all inertia leaves of the bearings' forces. The couple about
+    z acts where the member that stands still is held.
+    """
+    forces = found.rigid if model == "rigid" or found.elastic is None else found.elastic
+    whole = found.casing_rigid if forces is found.rigid else found.casing
+    places = {
+        f"{name} {letter}": wrench(_on_axis(np.array([z])), -forces[member][:, [i]])
+        for member, name in (("shaft", "input shaft"), ("output", "output flange"))
+        for i, (letter, z) in enumerate(zip("AB", _bearings(design, member), strict=True))
+    }
+    about_z = whole.moment * [0.0, 0.0, 1.0]
+    if forces is found.rigid:
+        ring = wrench(_on_axis(np.array([d.z for d in design.discs])), found.ring)
+    else:
+        taken = [replace(each, force=-each.force, moment=-each.moment) for each in places.values()]
+        ring = total([whole, *taken, couple(-about_z)])
+    loads = {"ring": ring, **places}
+    held = ("ring",) if design.drive.fixed == "ring" else ("output flange A", "output flange B")
+    for name in held:
+        loads[name] = total([loads[name], couple(about_z / len(held))])
+    return loads
 
 
 def _spoken(name: str) -> str:
@@ -138,46 +175,71 @@ def _residual(
     return float(max(force, moment))
 
 
-def _response(design: Design, series: Series, masses: Masses, damping: float, turn: Array) -> Response:
-    turned = frames(series.names, turn)
-    motion, _ = close_turn(np.einsum("nij,nj->ni", turned, series.motion))
-    stiffness = np.einsum("nij,njk,nlk->nil", turned, series.stiffness, turned)[:-1]
-    return respond(motion, mass_matrix(design, series.names, masses), stiffness, design.crank_speed, damping)
+def _response(design: Design, series: Series, masses: Masses, damping: float) -> tuple[Response, float]:
+    """Return the response along the axes of the fixed frame, and what its energy balance lacks, relative.
+
+    It is found in the frame of the eccentric, where the stiffness varies least.
+    """
+    names, speed = series.names, design.crank_speed
+    seen, stiffness = on_the_eccentric(series)
+    motion, _ = close_turn(seen)
+    mass, unit = mass_matrix(design, names, masses), turning(design, names, masses)
+    frame = Frame(
+        speed * unit.gyroscopic, speed**2 * unit.centrifugal, speed * unit.rate, ", seen from the eccentric"
+    )
+    found = respond(motion, mass, stiffness, speed, damping, frame)
+    fail_if_growing(
+        mass,
+        found.damper + frame.gyroscopic,
+        stiffness + frame.centrifugal + found.damper @ frame.rate,
+        speed,
+        "the stiffness of the contacts, which varies over the turn,",
+    )
+    turned = frames(names, series.angle[:-1])
+
+    def out(record: Array) -> Array:
+        return frozen(np.einsum("nij,nj->ni", turned, record))
+
+    fixed = replace(
+        found,
+        motion=out(found.motion),
+        correction=out(found.correction),
+        spring_correction=out(found.spring_correction),
+        velocity=out(found.velocity + found.correction @ frame.rate.T),
+        acceleration=out(found.acceleration),
+        inertia=out(found.inertia),
+        amplitudes=harmonics(out(found.motion))[1:],
+    )
+    seen_from_it = (found.correction, motion, varied(stiffness, found.correction))
+    return fixed, _work(
+        names, seen_from_it, (mass, speed * momenta(design, names, masses)), speed, found.loss
+    )
 
 
-def frames(names: tuple[str, ...], turn: Array) -> Array:
-    """Return matrices (n, k, k) that turn motions from the ring's frame into the fixed one."""
-    made = np.tile(np.eye(len(names)), (len(turn), 1, 1))
-    for first, second in (("x", "y"), ("tilt_x", "tilt_y")):
-        for i in [i for i, name in enumerate(names) if name.endswith("." + first)]:
-            j = names.index(names[i].removesuffix(first) + second)
-            made[:, i, i] = made[:, j, j] = np.cos(turn)
-            made[:, j, i], made[:, i, j] = np.sin(turn), -np.sin(turn)
-    return made
+def _work(
+    names: tuple[str, ...], seen: tuple[Array, ...], inertia: tuple[Array, Array], speed: float, loss: float
+) -> float:
+    """Return how far the work of all loads on the elastic motion is from what damping takes, relative.
 
-
-def mass_matrix(design: Design, names: tuple[str, ...], masses: Masses) -> Array:
-    """Return the diagonal mass matrix of the motions: kg for x and y, kg·m² for rotation and tilt."""
-    pins = design.drive.output_pins
-    flange = masses.flange.mass + pins.count * masses.output_pin.mass
-    spin = masses.flange.axial_inertia + pins.count * masses.output_pin.mass * pins.circle_radius**2
-    tilt = masses.flange.transverse_inertia + 0.5 * (spin - masses.flange.axial_inertia)
-    disc = {"x": masses.disc.mass, "y": masses.disc.mass, "rotation": masses.disc.axial_inertia}
-    shaft_tilt = masses.shaft.transverse_inertia
-    values = {
-        "shaft": {"x": masses.shaft.mass, "y": masses.shaft.mass, "tilt_x": shaft_tilt, "tilt_y": shaft_tilt},
-        "output": {"x": flange, "y": flange, "rotation": spin, "tilt_x": tilt, "tilt_y": tilt},
-    }
-    split = [name.split(".") for name in names]
-    return np.diag([values.get(member, disc)[motion] for member, motion in split])
+    Along axes that stand still, where no term of the turning frame occurs: `seen` from the eccentric are y, q and the
+    forces of all springs, which are turned out and differentiated there; `inertia`: M and the momenta about z.
+    """
+    count = 2 * len(seen[0])  # turning adds a harmonic
+    turned = frames(names, 2.0 * np.pi * np.arange(count) / count)
+    y, still, springs = (
+        np.einsum("nij,nj->ni", turned, synthesize(harmonics(record), count)) for record in seen
+    )
+    mass, spins = inertia
+    load = -rate(still, speed, 2) @ mass - rate(still, speed) @ spins.T
+    return unmet(rate(y, speed), (load, -springs), loss)
 
 
 def _change(design: Design, layout: Layout, member: str, response: Response) -> Array:
     """Return the change (n, 2, 2) of a member's bearing reactions by the dynamic motion."""
     table = design.drive.input_shaft if member == "shaft" else design.drive.output_flange
     changes = []
-    for z in table.bearing_positions:
-        support = Support(member, layout.rows(member, z)[:2], table.bearing_stiffness * np.eye(2))
+    for z, stiffness in zip(table.bearing_positions, design.supports[member], strict=True):
+        support = Support(member, layout.rows(member, z)[:2], stiffness * np.eye(2))
         changes.append(-support_forces(support, response.spring_correction))
     return np.stack(changes, axis=1)
 

@@ -141,6 +141,7 @@ def _series(
         bearing=bearing,
         motion=frozen([found.motion]),
         stiffness=frozen([found.stiffness]),
+        wandering=frozen([0.0]),
         imbalance=found.imbalance,
         penetration=found.penetration,
         iterations=found.steps,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from trochoid.drives.anderson import fixed_points
+from trochoid.drives.anderson import fixed_points, unsettled
 from trochoid.drives.khv.contact import Layout, assembly, centrifugal, layout
 from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.sliding import Rates, disc_turning, partner_turning, rates
@@ -24,7 +24,6 @@ SETTLED = 1e-10  # change of the friction forces, relative to all forces
 BALANCED = 1e-9  # what may be left of it where rounding does not let it settle
 POSITIONS = 12  # over a turn: the mean loss is known to 3e-4 of itself
 FINE = 1e-3  # tolerance below which four times as many are taken
-MEANT = 0.3  # coefficient up to which a solution is promised
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,17 +109,9 @@ def run(design: Design, rung: str, bodies: tuple[ElasticBody, ...], angles: Arra
         at = np.degrees(angles[fault.row or 0])
         raise NotConverged(f"running with friction, at input angle {at:.6g}°: {fault}") from fault
     if not left.max() <= BALANCED:
-        raise NotConverged(_locked(design, float(angles[left.argmax()]), float(left.max())))
+        given = {f"{kind}_pins": value for kind, value in coefficients(design).items()}
+        raise NotConverged(unsettled(float(angles[left.argmax()]), float(left.max()), given))
     return _gathered(found[-1], angles)
-
-
-def _locked(design: Design, angle: float, left: float) -> str:
-    given = ", ".join(f"{kind}_pins = {value:g}" for kind, value in coefficients(design).items())
-    return (
-        f"running with friction, at input angle {np.degrees(angle):.6g}°: friction and contact forces do not settle "
-        f"({left:.1e} of them is left) with {given}; the drive may lock (take coefficients up to {MEANT:g}), or be "
-        "loaded so little that forces drown in rounding (give a larger torque)"
-    )
 
 
 def _lost(at: _At) -> dict[str, Array]:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trochoid.drives.khv.contact import assembly, layout
+from trochoid.drives.khv.contact import assembly, layout, side_slopes
 from trochoid.drives.khv.design import Design
+from trochoid.fem.moving import softness, wandering
 from trochoid.fem.position import Contact, ElasticBody, Touch, solve_position, solve_positions
 from trochoid.fem.rows import joined
 from trochoid.kinematics.errors import NotConverged
@@ -47,8 +48,9 @@ class Touches:
 class Series:
     """Contacts over the input angle (n,) in rad; the last position is a full turn after the first.
 
-    `crank` (n,) angle relative to the ring, `motion` (n, k) and `stiffness` (n, k, k) on `names`; `imbalance`
-    and `penetration` are the largest relative residuals, `iterations` the most Newton steps.
+    `crank` (n,) angle relative to the ring, `motion` (n, k) and `stiffness` (n, k, k) on `names`; `wandering` (n,):
+    compliance at the flange in rad/(N·m) beside the tangent's, of contacts that the load moves; `imbalance` and
+    `penetration` are the largest relative residuals, `iterations` the most Newton steps.
     """
 
     rung: str
@@ -60,6 +62,7 @@ class Series:
     bearing: Touches | None
     motion: Array
     stiffness: Array
+    wandering: Array
     imbalance: float
     penetration: float
     iterations: int
@@ -73,19 +76,8 @@ class Series:
     def torsional_stiffness(self) -> Array:
         """Torque per rotation (n,) at the flange with the input held, N·m/rad; 0 where nothing resists."""
         row = self.names.index("output.rotation")
-        unit = np.zeros(len(self.names))
-        unit[row] = 1.0
-        result = np.zeros(len(self.angle))
-        for i, k in enumerate(self.stiffness):
-            size = np.sqrt(np.maximum(np.diag(k), 0.0))
-            if size[row] == 0.0:
-                continue
-            scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0)
-            unitless, one = k * np.outer(scale, scale), unit * scale
-            answer, *_ = np.linalg.lstsq(unitless, one, rcond=1e-12)
-            if np.abs(unitless @ answer - one).max() <= 1e-6 * one[row]:
-                result[i] = 1 / float(answer[row] * scale[row])
-        return result
+        yields = softness(self.stiffness, row)[:, row] + self.wandering
+        return np.divide(1.0, yields, out=np.zeros_like(yields), where=yields > 0)
 
 
 def solve_series(
@@ -101,20 +93,20 @@ def solve_series(
     """
     angle = np.linspace(0.0, 2 * np.pi, positions + 1)
     parts: list[tuple[IntArray, Contact]] = []
+    wanders, sides = np.zeros(len(angle)), side_slopes(design, rung)
+    row = layout(design, rung).names.index("output.rotation")
     for start in range(0, len(angle), CHUNK):
         rows = np.arange(start, min(start + CHUNK, len(angle)))
-        parts.append((rows, solve_angles(design, rung, bodies, angle[rows])))
+        problem = assembly(design, rung, bodies, angle[rows] * design.mesh_speed)
+        try:
+            contact = solve_positions(problem, resolve=rung == "strips")
+        except NotConverged as fault:
+            at = np.degrees(angle[rows][fault.row or 0])
+            raise NotConverged(f"at input angle {at:.6g}°: {fault}") from fault
+        parts.append((rows, contact))
+        wanders[rows] = wandering(problem, contact, softness(contact.stiffness, row), sides)
         progress(int(rows[-1]) + 1)
-    return _gathered(design, rung, angle, joined(parts))
-
-
-def solve_angles(design: Design, rung: str, bodies: tuple[ElasticBody, ...], angle: Array) -> Contact:
-    """Solve positions at input angles (n,) in rad, side by side."""
-    problem = assembly(design, rung, bodies, angle * design.mesh_speed)
-    try:
-        return solve_positions(problem, resolve=rung == "strips")
-    except NotConverged as fault:
-        raise NotConverged(f"at input angle {np.degrees(angle[fault.row or 0]):.6g}°: {fault}") from fault
+    return _gathered(design, rung, angle, joined(parts), wanders)
 
 
 def solve_at(
@@ -128,7 +120,7 @@ def solve_at(
         raise NotConverged(f"at input angle {np.degrees(angle):.6g}°: {fault}") from fault
 
 
-def _gathered(design: Design, rung: str, angle: Array, contact: Contact) -> Series:
+def _gathered(design: Design, rung: str, angle: Array, contact: Contact, wanders: Array) -> Series:
     count = len(design.discs)
     width = {"ring": design.drive.face_width, "output": design.drive.face_width}
     width["bearing"] = design.drive.eccentric_bearing.roller_length
@@ -147,6 +139,7 @@ def _gathered(design: Design, rung: str, angle: Array, contact: Contact) -> Seri
         kinds.get("bearing"),
         frozen(contact.motion),
         frozen(contact.stiffness),
+        frozen(wanders),
         float(contact.imbalance.max()),
         float(contact.penetration.max()),
         int(contact.iterations.max()),

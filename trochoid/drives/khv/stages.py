@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from trochoid.clock import Clock
-from trochoid.drives.choosing import COARSEST, FINEST, doubled
+from trochoid.drives.casing import casing_reasons
+from trochoid.drives.choosing import COARSEST, Chosen, coarsest, doubled, first_given, or_level0
 from trochoid.drives.khv.design import Design, design
 from trochoid.drives.mesh_error import Pair
-from trochoid.kinematics.errors import Infeasible, SceneError, TrochoidError
+from trochoid.kinematics.errors import Infeasible, SceneError
 from trochoid.scene.drive_khv import KhvScene
 
 if TYPE_CHECKING:
+    from trochoid.drives.casing import Shaken
     from trochoid.drives.khv.bodies import Level
     from trochoid.drives.khv.field import DiscState
     from trochoid.drives.khv.load_path import LoadPath
@@ -26,20 +27,23 @@ if TYPE_CHECKING:
     from trochoid.drives.khv.series import Series
     from trochoid.drives.khv.torsional import Torsional
     from trochoid.drives.khv.vibration import CasingVibration
+    from trochoid.drives.rolling import Held
     from trochoid.fem.position import ElasticBody
+    from trochoid.fem.solid import SolidBody
     from trochoid.geometry.mesh import Mesh
 
 
 @dataclass(frozen=True)
 class Solved:
     """Contacts over a turn on the finer of two mesh levels, on the coarser one (None for rigid discs), and
-    their levels.
+    their levels; `doubt`: why the error of level 0 is not known.
     """
 
     fine: Series
     coarse: Series | None
     level: Level | None
     coarse_level: Level | None
+    doubt: str = ""
 
 
 @dataclass(frozen=True)
@@ -62,7 +66,7 @@ class Stages:
 
         made = self.design
         with self.clock.stage("geometry"):
-            reasons = faults(made)
+            reasons = [*faults(made), *casing_reasons(self.scene)]
             if reasons:
                 raise Infeasible("\n".join(reasons))
         return made
@@ -91,16 +95,7 @@ class Stages:
 
     def coarsest(self) -> tuple[int, tuple[Mesh, ...] | None]:
         """Return the coarsest level whose mesh thin walls allow, with its meshes; the finest without any."""
-        facets = COARSEST
-        while 2 * facets < FINEST:
-            with suppress(TrochoidError):
-                return facets, self.meshes(facets)
-            facets *= 2
-        return facets, None
-
-    def first_given(self, given: int) -> int:
-        """Return the level that tells the error of the facets per lobe that a scene names."""
-        return max(3, given // 2)
+        return coarsest(COARSEST, self.meshes)
 
     def level(self, facets: int, made: tuple[Mesh, ...] | None = None) -> Level:
         """Build the discs on one mesh level, of which the meshes may be there already."""
@@ -153,12 +148,13 @@ class Stages:
         Raises NotConverged when the finest pair does not.
         """
         rung, accuracy = named_rung(self.scene), self.scene.accuracy
+        self.supported  # noqa: B018 - refuses what cannot hold before anything is meshed
         if rung == "springs":
             return Solved(self.series(None), None, None, None)
         from trochoid.drives.khv.choice import choose
 
         given = accuracy.facets_per_lobe
-        first, meshes = self.coarsest() if given is None else (self.first_given(given), None)
+        first, meshes = self.coarsest() if given is None else (first_given(given), None)
         levels = (first, given) if given is not None else doubled(first)
         built = {first: self.level(first, meshes)}
         solved: dict[int, Series] = {}
@@ -170,9 +166,13 @@ class Stages:
             return solved[facets]
 
         tolerance = accuracy.tolerance if given is None else float("inf")
-        found = choose(tolerance, levels, solve, lambda: self.model_error(built[first]), rung)
+
+        def best(rung: str | None) -> Chosen:
+            return choose(tolerance, levels, solve, lambda: self.model_error(built[first]), rung)
+
+        found, doubt = or_level0(best, rung)
         coarse, fine = found.levels[-2:]
-        return Solved(solved[fine], solved[coarse], built[fine], built[coarse])
+        return Solved(solved[fine], solved[coarse], built[fine], built[coarse], doubt)
 
     @cached_property
     def difference(self) -> float:
@@ -209,6 +209,32 @@ class Stages:
             if solved.coarse_level is None:
                 return Pair(fine, None)
             return Pair(fine, run(self.design, rung, coarse, angles))
+
+    @cached_property
+    def supported(self) -> bool:
+        """Whether rolling bearings hold shaft or flange; their stiffness is then found under their loads."""
+        from trochoid.drives.khv.plan import rolls
+
+        made = self.feasible
+        if not rolls(self.scene):
+            return False
+        d = self.scene.drive
+        if None not in (d.input_shaft.bearing_stiffness, d.output_flange.bearing_stiffness):
+            return True
+        with self.clock.stage("supports"):
+            made.bearings  # noqa: B018 - solved once, and kept
+        return True
+
+    @cached_property
+    def rolling(self) -> dict[str, tuple[Held, Held]]:
+        """Rolling bearings A and B of shaft and flange under the loads that the contacts gave."""
+        if not self.supported:
+            return {}
+        solved = self.contact
+        with self.clock.stage("supports"):
+            from trochoid.drives.khv.bearings import under
+
+            return under(self.design, solved.fine)
 
     @cached_property
     def bearing(self) -> Pair[SeatStiffness]:
@@ -277,13 +303,30 @@ class Stages:
             return torsional(made, self.design.crank_speed)
 
     @cached_property
+    def casing_body(self) -> SolidBody:
+        """The elastic casing as a finite-element body."""
+        from trochoid.drives.casing_body import casing_body
+
+        return casing_body(self.scene, self.clock)
+
+    @cached_property
+    def casing(self) -> Pair[Shaken]:
+        """The casing, and its variants without single effects."""
+        from trochoid.drives.casing_body import casings
+
+        return casings(self.scene, self.clock, lambda: self.casing_body)
+
+    @cached_property
     def vibration(self) -> Pair[CasingVibration]:
         """Vibration velocity of the casing."""
-        found = self.reactions
+        found, casing = self.reactions, self.casing
         with self.clock.stage("vibration"):
             from trochoid.drives.khv.vibration import casing_vibration
+            from trochoid.drives.vibration import on_levels
 
-            return found.map(lambda reactions: casing_vibration(self.design, reactions))
+            return on_levels(
+                found, casing, lambda reactions, shaken: casing_vibration(self.design, reactions, shaken)
+            )
 
 
 def named_rung(scene: KhvScene) -> str | None:

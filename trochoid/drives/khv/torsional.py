@@ -4,9 +4,14 @@ The input turns evenly.  With x the lag of the driven member behind its ideal an
 
     J ẍ + c ẋ + k(φ) [x − e(φ)]_g = T,     e = x_s − T/k less its mean,  [x]_g: what x is beyond ±g,
 
-x_s(φ) and k(φ) are lag and tangent stiffness of all contacts at rest under T.  At creeping speed x = x_s + const.
-Which of it is in the equations the scene's effects say: without "time_varying_stiffness" k is its mean, without
-"backlash" the contacts pull, too.  A single coordinate: discs turn with the driven member, all else follows at once.
+x_s(φ) and k(φ) are lag and tangent stiffness of all contacts at rest under T.  Solved is for what x is beyond
+r(φ) = T/k + e + g, which it is at rest: with z = x − r, as far as contacts press,
+
+    J z̈ + c ż + k z = −J r̈ − c ṙ,
+
+so that a creeping drive carries T at every angle, however few the harmonics.  Which of it is in the equations the
+scene's effects say: without "time_varying_stiffness" k is its mean, without "backlash" the contacts pull, too.  A
+single coordinate: discs turn with the driven member, all else follows at once.
 """
 
 from __future__ import annotations
@@ -19,7 +24,7 @@ import numpy as np
 from trochoid.drives.khv.design import Design
 from trochoid.drives.khv.mass import Masses
 from trochoid.drives.khv.series import Series
-from trochoid.dynamics.floquet import growth
+from trochoid.dynamics.floquet import along, growth
 from trochoid.dynamics.harmonic_balance import Periodic, steady
 from trochoid.dynamics.local_law import Law, Local, gap
 from trochoid.dynamics.sweep import sweep
@@ -30,7 +35,7 @@ from trochoid.kinematics.types import Array, ComplexArray, frozen
 VARYING, BACKLASH = "time_varying_stiffness", "backlash"
 SLOWEST, FASTEST, SPEEDS = 0.2, 2.0, 73  # of the speed of operation
 INSTANTS, EVERY = 160, 3  # over a turn, and which of the speeds: for the growth of small motions
-CREEP = 1e-3  # of the natural frequency, for the highest harmonic
+FINE = 16  # instants per harmonic: T/k has more harmonics than k
 STABLE = 1e-6  # how far a multiplier may be above 1 by rounding
 
 
@@ -64,8 +69,13 @@ class Pendulum:
         return System(frozen(self.inertia * one), frozen(self.damping * one), frozen(0.0 * one))
 
     @property
+    def windup(self) -> float:
+        """T/k̄ + g, rad: the unknown of the balance is z beyond it, which is x itself for an even k without error."""
+        return self.torque / self.mean_stiffness + self.half_gap
+
+    @property
     def local(self) -> Local:
-        """The drive's torque over lag and input angle."""
+        """The drive's torque over z + T/k̄ + g and input angle."""
         return Local("drive", np.ones(1), law(self), self.mean_stiffness, self.half_gap)
 
     @property
@@ -73,17 +83,29 @@ class Pendulum:
         """The highest order of the input speed that the angles resolve."""
         return (len(self.error) - 1) // 2
 
+    def at_rest(self, phase: Array) -> Array:
+        """Return r (n,), the lag under the torque of a drive that creeps, at input angles."""
+        k, e = _joined(self, phase)
+        return np.asarray(self.torque / k + e + self.half_gap)
+
+    def lag(self, motion: Periodic) -> Array:
+        """Return x (n,) over `motion.phase`."""
+        return np.asarray(motion.deflection[:, 0] - self.windup + self.at_rest(motion.phase))
+
     def loads(self, speed: float) -> ComplexArray:
-        """Return the load torque, which does not vary."""
-        lines = np.zeros((self.harmonics + 1, 1), dtype=np.complex128)
-        lines[0] = self.torque
-        return lines
+        """Return the load torque, which does not vary, and what inertia and damping of r ask for."""
+        count = FINE * self.harmonics
+        lines = np.fft.rfft(self.at_rest(2.0 * np.pi * np.arange(count) / count))[: self.harmonics + 1]
+        omega = speed * np.arange(self.harmonics + 1)
+        found = (self.inertia * omega**2 - 1j * self.damping * omega) * lines * (2.0 / count)
+        found[0] = self.torque
+        return np.asarray(found[:, None], dtype=np.complex128)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Torsional:
     """Steady motion at the speed of operation, and over `speeds` (p,), rad/s, swept up and down: peak to peak (p,),
-    rad, of what it is beyond that at creeping speed.  `growth` (q,) of a small motion over a turn at `tried` (q,),
+    rad, of z, what it is beyond that at creeping speed.  `growth` (q,) of a small motion over a turn at `tried` (q,),
     rad/s, the speed of operation the first: above 1 it excites itself.
     """
 
@@ -94,6 +116,11 @@ class Torsional:
     down: Array
     tried: Array
     growth: Array
+
+    @property
+    def swing(self) -> float:
+        """Peak to peak of the lag x, rad."""
+        return float(np.ptp(self.pendulum.lag(self.motion)))
 
     @property
     def torques(self) -> tuple[float, float]:
@@ -152,8 +179,19 @@ def driven_inertia(design: Design, masses: Masses) -> float:
 
 
 def law(made: Pendulum) -> Law:
-    """Return the drive's torque: stiffness and error are joined between their angles by their harmonics."""
+    """Return the drive's torque k [x − e]_g over z + T/k̄ + g."""
     beyond = gap(1.0, made.half_gap)
+
+    def torque(lag: Array, phase: Array) -> tuple[Array, Array]:
+        k = _joined(made, phase)[0]
+        pressed, slope = beyond(lag - made.windup + made.torque / k + made.half_gap, phase)
+        return k * pressed, k * slope
+
+    return torque
+
+
+def _joined(made: Pendulum, phase: Array) -> tuple[Array, Array]:
+    """Return k and e at input angles: their harmonics join them between the angles of the contacts."""
     order = np.arange(made.harmonics + 1)
 
     def lines(samples: Array) -> ComplexArray:
@@ -162,13 +200,8 @@ def law(made: Pendulum) -> Law:
         return found
 
     both = np.stack([lines(made.stiffness), lines(made.error)], axis=1)
-
-    def torque(lag: Array, phase: Array) -> tuple[Array, Array]:
-        k, e = (np.exp(1j * np.multiply.outer(phase, order)) @ both).real.T
-        pressed, slope = beyond(lag - e, phase)
-        return k * pressed, k * slope
-
-    return torque
+    k, e = (np.exp(1j * np.multiply.outer(phase, order)) @ both).real.T
+    return k, e
 
 
 def torsional(made: Pendulum, speed: float) -> Torsional:
@@ -183,23 +216,16 @@ def torsional(made: Pendulum, speed: float) -> Torsional:
     if made.half_gap > 0.0 and any(each.force.min() <= 0.0 for each in up):
         with suppress(NotConverged):
             down = sweep(made.system, (made.local,), made.loads, speeds[::-1])[::-1]
-    still = creeping(made).deflection
     tried = (motion, *up[::EVERY]) if np.ptp(made.stiffness) > 0.0 else ()
     return Torsional(
         made,
         motion,
         frozen(speeds),
-        frozen([np.ptp(each.deflection - still) for each in up]),
-        frozen([np.ptp(each.deflection - still) for each in down]),
+        frozen([np.ptp(each.deflection) for each in up]),
+        frozen([np.ptp(each.deflection) for each in down]),
         frozen([each.speed for each in tried]),
         frozen([_growth(made, each) for each in tried]),
     )
-
-
-def creeping(made: Pendulum) -> Periodic:
-    """Return the motion at a speed so low that nothing but the transmission error is left of it."""
-    slow = CREEP * 2.0 * np.pi * made.natural_frequency / made.harmonics
-    return steady(made.system, (made.local,), made.loads(slow), slow)
 
 
 def _closed(values: Array) -> Array:
@@ -211,4 +237,4 @@ def _growth(made: Pendulum, motion: Periodic) -> float:
     phase = 2.0 * np.pi * np.arange(INSTANTS) / INSTANTS
     deflection = np.interp(phase, np.append(motion.phase, 2.0 * np.pi), _closed(motion.deflection[:, 0]))
     slopes = law(made)(deflection, phase)[1]
-    return growth(made.system, (made.local,), slopes[:, None], motion.speed)
+    return growth(*along(made.system, (made.local,), slopes[:, None]), motion.speed)

@@ -20,6 +20,7 @@ QUANTITIES = answers(
             "torsional_stiffness",
         ),
         "answers_forces": ("reactions", "bearing_loads", "mass"),
+        "answers_bearings": ("bearing_stiffness", "bearing_life"),
         "answers_dynamics": ("natural_frequencies", "vibration_velocity", "vibration_zone"),
     },
 )

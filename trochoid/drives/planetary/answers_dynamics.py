@@ -12,14 +12,14 @@ from trochoid.drives.planetary.answers_contact import number
 from trochoid.drives.planetary.moving import MAIN
 from trochoid.drives.planetary.reactions import Reactions, explain
 from trochoid.drives.planetary.stages import Stages
-from trochoid.drives.vibration import velocity, zone_answer
+from trochoid.drives.vibration_answers import casing_note, velocity_parts, zone_answer
 from trochoid.dynamics.spectrum import harmonics
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Parts, Quantity
 
 if TYPE_CHECKING:
     from trochoid.drives.planetary.modes import SetModes
-    from trochoid.drives.planetary.vibration import CasingVibration
+    from trochoid.drives.vibration import CasingVibration
 
 LINES = ("at_mesh_frequency", "at_harmonic_2", "at_harmonic_3")
 READ = {
@@ -116,32 +116,20 @@ def _frequency(i: int) -> Callable[[SetModes], float]:
 
 
 def vibration_velocity(s: Stages) -> Quantity:
-    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; the worst without inertia beside it."""
+    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; without each effect the worst beside it."""
     found = s.vibration
-    parts: dict[str, Parts] = {}
-    for i, point in enumerate(found.fine.elastic.points):
-        entries = {axis: _rms(s, _velocity(i, j)) for j, axis in enumerate("xyz")}
-        entries["worst"] = _rms(s, _velocity(i, None))
-        entries["worst_without_inertia"] = _rms(s, _velocity(i, None, static=True))
-        parts[point.name] = entries
+
+    def made(get: Callable[[CasingVibration], float], unit: str, model: str) -> Quantity:
+        return replace(number(s, found.map(get), unit), model=model)
+
+    resolved = found.fine.elastic.resolved_to
     return Quantity(
-        parts=dict(parts),
+        parts=velocity_parts(found.fine, made, "elastic"),
         note=(
-            f"lines up to {found.fine.elastic.resolved_to:.0f} Hz are resolved; rigid members press evenly and shake "
-            "nothing"
+            f"lines up to {resolved:.0f} Hz are resolved; rigid members press evenly and shake nothing"
+            f"{casing_note(found.fine)}"
         ),
     )
-
-
-def _rms(s: Stages, get: Callable[[CasingVibration], float]) -> Quantity:
-    return replace(number(s, s.vibration.map(get), "mm/s"), model="elastic")
-
-
-def _velocity(point: int, axis: int | None, static: bool = False) -> Callable[[CasingVibration], float]:
-    def get(found: CasingVibration) -> float:
-        return velocity(found.static if static else found.elastic, point, axis)
-
-    return get
 
 
 def vibration_zone(s: Stages) -> Quantity:

@@ -34,7 +34,9 @@ def seat_residual(design: Design, series: Series) -> float:
     size = np.abs(series.bearing).max()
     for i, place in enumerate(series.places):
         rows = series.layout.planet(i, place)[:2] - series.layout.seat(place)
-        spring = d.planet.bearing_stiffness * series.motion @ rows.T
+        seat = design.seat_stiffness(place)
+        turned = isinstance(seat, np.ndarray)
+        spring = series.motion @ rows.T @ seat if turned else seat * series.motion @ rows.T
         found.append(np.abs(spring - series.bearing[:, i]).max())
     members = {
         "sun": d.sun.bearing_stiffness,

@@ -167,7 +167,8 @@ def springs(design: Design, motions: Layout, places: Array) -> Array:
         total += stiffness * at.T @ at
     for i, center in enumerate(places):
         at = motions.rows(f"planet{i}")[:2] - motions.seat(center)
-        total += d.planet.bearing_stiffness * at.T @ at
+        seat = design.seat_stiffness(center)
+        total += at.T @ seat @ at if isinstance(seat, np.ndarray) else seat * at.T @ at
     return total
 
 

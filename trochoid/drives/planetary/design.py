@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from trochoid.geometry.planetary import Planetary, PlanetarySet, planetary
 from trochoid.geometry.planetary_check import planetary_faults
@@ -12,7 +13,11 @@ from trochoid.geometry.planetary_quality import Limits
 from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.involute_pair import mesh_at, needed_shift
 from trochoid.kinematics.shaper import Shaper
+from trochoid.kinematics.types import Array
 from trochoid.scene.drive_planetary import PlanetaryDrive, PlanetaryScene
+
+if TYPE_CHECKING:
+    from trochoid.drives.planetary.bearings import PlanetSeat
 
 ROLLER = 1.732  # diameter of the rollers to measure over, in modules
 
@@ -40,6 +45,21 @@ class Design:
     def geometry(self) -> Planetary:
         """Circles, meshes and boundaries; raises Infeasible where teeth cannot reach each other."""
         return planetary(self.given)
+
+    @cached_property
+    def planet_seat(self) -> PlanetSeat | None:
+        """The rolling bearing of a planet, None where the scene has none. Raises Infeasible if it resists nothing."""
+        from trochoid.drives.planetary.bearings import planet_seat
+
+        return planet_seat(self)
+
+    def seat_stiffness(self, center: Array) -> Array | float:
+        """Stiffness of the bearing of a planet at a place (2,), N/m: one number, or (2, 2) along x and y."""
+        given = self.drive.planet.bearing_stiffness
+        if given is not None:
+            return given
+        assert self.planet_seat is not None
+        return self.planet_seat.at(center)
 
     @property
     def relief_length(self) -> float:

@@ -21,7 +21,7 @@ def faults(design: Design) -> tuple[str, ...]:
 
 def _around_teeth(design: Design) -> tuple[str, ...]:
     """Return what is wrong with what the teeth are cut with and stand on."""
-    found = _root_rounding(design) + _bodies(design) + _floating(design)
+    found = _root_rounding(design) + _bodies(design) + _floating(design) + _bearing(design)
     try:
         curves = members(design.given, design.rounding)
         if design.scene.has("elastic_contact") and not found:
@@ -73,6 +73,16 @@ def _bodies(design: Design) -> tuple[str, ...]:
         f"ring.outer_radius = {_mm(ring)}: nothing is left above the teeth; it must be more than the root radius "
         f"{_mm(float(roots[2]))}",
     )
+
+
+def _bearing(design: Design) -> tuple[str, ...]:
+    """The rolling bearing of the planets."""
+    table = design.drive.planet.bearing
+    if table is None or not design.scene.has("bearing_compliance"):
+        return ()
+    from trochoid.drives.rolling import faults as rolling_faults
+
+    return rolling_faults({"planet.bearing": table})
 
 
 def _floating(design: Design) -> tuple[str, ...]:

@@ -31,7 +31,7 @@ NEVER_SIMULATED = {
         "Teeth carry evenly over the face width: misalignment and the twist of the wheels load one end more."
     ),
     "elasticity of carrier, shafts and casing": (
-        "They are rigid but for the springs of the scene: what these leave out adds to the wind-up here."
+        "The set finds them rigid but for the springs of the scene: what these leave out adds to the wind-up here."
     ),
     "bolts and feet of the ring": (
         "The ring's outer edge is fixed all round, or its torque is taken evenly: a ring held at a few places yields "

@@ -14,6 +14,7 @@ import numpy as np
 
 from trochoid.drives.modes import CLOSE, Mode, campbell_plot, shares
 from trochoid.drives.planetary.moving import MAIN, Moving
+from trochoid.dynamics.elastic import departure
 from trochoid.dynamics.system import System
 from trochoid.dynamics.whirl import whirl
 from trochoid.kinematics.types import Array, ComplexArray, frozen
@@ -28,13 +29,15 @@ ORDERS = 3  # harmonics of the mesh frequency that are looked at
 @dataclass(frozen=True, slots=True)
 class SetModes:
     """Modes at the speed of operation by rising frequency, and the energy's `kinds` (modes, 3) of each; `free` have no
-    stiffness. `variation`: the largest departure of the stiffness from its mean over a pitch, relative.
+    stiffness. `variation`: the largest departure of the stiffness from its mean over a pitch, relative. `shapes`
+    (k, modes) on the free motions.
     """
 
     modes: tuple[Mode, ...]
     kinds: Array
     free: int
     variation: float
+    shapes: ComplexArray
 
 
 def assembled(set_: Moving, share: float = 1.0) -> System:
@@ -56,7 +59,7 @@ def natural_modes(set_: Moving) -> SetModes:
     modes = tuple(
         Mode(float(f), shares(energy[:, i], names), _kind(kinds[i])) for i, f in enumerate(found.frequency)
     )
-    return SetModes(modes, frozen(kinds), system.size - len(modes), _variation(set_))
+    return SetModes(modes, frozen(kinds), system.size - len(modes), departure(set_.stiffness()), found.shapes)
 
 
 def kind_shares(set_: Moving, members: ComplexArray) -> Array:
@@ -96,14 +99,6 @@ def _spoken(name: str) -> str:
     if member.startswith("planet"):
         member = "planets"
     return f"{member} {'turning' if motion == 'rotation' else 'across the axis'}"
-
-
-def _variation(set_: Moving) -> float:
-    stiffness = set_.stiffness()
-    mean = stiffness.mean(axis=0)
-    size = np.sqrt(np.abs(np.diag(mean)))
-    scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)
-    return float(np.linalg.norm((stiffness - mean) * np.outer(scale, scale), ord=2, axis=(1, 2)).max())
 
 
 def near(set_: Moving, modes: tuple[Mode, ...]) -> list[str]:

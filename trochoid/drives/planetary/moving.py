@@ -144,7 +144,8 @@ def supported(design: Design, whole: Layout, places: Array) -> tuple[Support, ..
         found.append(Support(name, frozen(whole.rows(name)[:2]), frozen(stiffness * np.eye(2))))
     for i, place in enumerate(places):
         relative = whole.rows(f"planet{i}")[:2] - whole.seat(place)
-        seat = d.planet.bearing_stiffness * np.eye(2)
+        held = design.seat_stiffness(place)
+        seat = held if isinstance(held, np.ndarray) else held * np.eye(2)
         found.append(Support(f"planet{i}", frozen(relative), frozen(seat)))
     for name in twisting(design):
         stiffness = getattr(d, name).torsional_stiffness

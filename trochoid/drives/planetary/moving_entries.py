@@ -9,13 +9,15 @@ import numpy as np
 from trochoid.drives.entries import ANGLE, Entries, entry, named
 from trochoid.drives.planetary.moving import MAIN
 from trochoid.drives.planetary.stages import Stages
+from trochoid.drives.vibration_answers import comparison
 from trochoid.dynamics.spectrum import harmonics
 
 BEARINGS, MESH, LINES = "Force on the planets' bearings", "Mesh forces", "Harmonics of the reactions"
 VELOCITY, FACE = "Vibration velocity", "Load over the face width"
 CAPTIONS = {
-    BEARINGS: "With the inertia of the members, and without it.",
-    MESH: "Normal force in both meshes of the first planet, with the inertia of the members, and without it.",
+    BEARINGS: "With the inertia of the members, and without it; rigid members press evenly.",
+    MESH: "Normal force in both meshes of the first planet, with the inertia of the members, and without it; of rigid "
+    "members it is constant.",
     LINES: "Amplitude at the multiples of the mesh frequency, of the torque that holds the fixed member.",
     VELOCITY: "Amplitude by the forces of the bearings and the torque that holds the fixed member.",
     FACE: "All teeth of a mesh together, at the position where the largest slice is most above the mean.",
@@ -85,6 +87,19 @@ def _reactions(stages: Stages) -> tuple[Entries, Entries]:
     made["holding_torque_rigid"] = entry(
         (ANGLE,), np.full(count, rigid[MAIN.index(fixed)]), "N*m", "torque, rigid", held, caption=caption
     )
+    planets = found.bearing.shape[1]
+    made["planet_bearing_rigid"] = entry(
+        (ANGLE, "planet"),
+        np.full((count, planets), stages.rigid.bearing),
+        "N",
+        "force, rigid",
+        BEARINGS,
+        caption=CAPTIONS[BEARINGS],
+    )
+    normal = [stages.rigid.outer.normal, stages.rigid.inner.normal]
+    made["first_mesh_force_rigid"] = entry(
+        (ANGLE, "mesh"), np.tile(normal, (count, 1)), "N", "force, rigid", MESH, caption=CAPTIONS[MESH]
+    )
     lines = found.speed / (2.0 * np.pi) * np.arange(1, (count - 1) // 2 + 1)
     return made, {
         "member": named("member", MAIN, "member"),
@@ -109,6 +124,7 @@ def _vibration(stages: Stages) -> tuple[Entries, Entries]:
         "vibration_rms_without_inertia": entry(
             dims[1:], found.static.rms, "m/s", f"rms velocity {slow}, {band}"
         ),
+        **comparison(found, heard),
     }
     return made, {
         "frequency": entry(("frequency",), found.elastic.frequencies[heard], "Hz", "frequency"),

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from trochoid.drives.choosing import doubtful, unheeded
 from trochoid.drives.gathering import begun, timed
 from trochoid.drives.planetary import headline
-from trochoid.drives.planetary.plan import ELASTIC, WHY
+from trochoid.drives.planetary.plan import ELASTIC, WHY, rolls
 from trochoid.drives.planetary.stages import Stages
+from trochoid.drives.planning import with_casing, with_supports
+from trochoid.drives.vibration_answers import casing_checks
 from trochoid.results.outcome import Check, Outcome, Quantity
 
 BALANCE = 1e-9
@@ -19,10 +22,11 @@ NEAR_RESONANCE = 5.0  # times the answer to a force that rests
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but what the figures need."""
     ran, elastic = tuple(stages.clock.seconds), stages.scene.has("elastic_contact")
+    why, _ = with_supports(rolls(stages.scene), *with_casing(stages.scene, WHY, {}))
     words = begun(
         stages,
         quantities,
-        [name for name in WHY if elastic or name not in ELASTIC],
+        [name for name in why if elastic or name not in ELASTIC],
         headline,
         headline.not_simulated(stages.scene),
     )
@@ -41,6 +45,11 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
             words = replace(
                 words, dataset=dataset(stages, ran), drawing=drawing(stages), plots=plots(stages, ran)
             )
+            if "modes" in ran:
+                from trochoid.drives.planetary.mode_shapes import films
+
+                shown = films(stages.feasible, stages.curves, stages.moving.fine, stages.modes.fine)
+                words = replace(words, films=shown)
     elif "blocking" in ran:
         with stages.clock.stage("figures"):
             from trochoid.drives.planetary.dataset import blocking_dataset
@@ -79,7 +88,10 @@ def contact_checks(stages: Stages) -> tuple[Check, ...]:
         found["teeth of the moving set press each other alike"] = moved.balance
         found["forces of the moving set are its inertia"] = moved.seats
         found["work of the moving set is what damping takes"] = moved.work
-    return tuple(Check.within(name, value, BALANCE) for name, value in found.items())
+    made = [Check.within(name, value, BALANCE) for name, value in found.items()]
+    if "vibration" in stages.clock.seconds:
+        made += casing_checks(stages.vibration.fine)
+    return tuple(made)
 
 
 def warnings(stages: Stages) -> Iterator[str]:
@@ -105,11 +117,8 @@ def warnings(stages: Stages) -> Iterator[str]:
         yield "planets cannot be pushed into the ring radially, only along the axis"
     yield from _unheeded(stages)
     yield from _moving(stages)
-    if "contact" in stages.clock.seconds and stages.contact.doubt:
-        yield (
-            "the pressure of some contacts could not be resolved, and level0 was taken, whose error is not known here: "
-            + stages.contact.doubt
-        )
+    if "contact" in stages.clock.seconds:
+        yield from doubtful(stages.contact.doubt)
 
 
 def _moving(stages: Stages) -> Iterator[str]:
@@ -136,9 +145,8 @@ def _moving(stages: Stages) -> Iterator[str]:
 def _unheeded(stages: Stages) -> Iterator[str]:
     """Yield what the scene gives and no listed effect heeds."""
     scene, d = stages.scene, stages.scene.drive
+    yield from unheeded(scene)
     if not scene.has("elastic_contact"):
-        if scene.accuracy != type(scene.accuracy)():
-            yield 'the table [accuracy] does nothing without the effect "elastic_contact": all answers are closed forms'
         return
     reliefs = (d.sun.tip_relief, d.planet.tip_relief, d.ring.tip_relief)
     for given, effect, what in (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from trochoid.drives.planning import planned
+from trochoid.drives.planning import planned, with_casing, with_supports
 from trochoid.plan import Plan
 from trochoid.scene.drive_planetary import PlanetaryScene
 
@@ -29,6 +29,8 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "torsional_stiffness": _CONTACT,
     "reactions": _FORCES,
     "bearing_loads": _FORCES,
+    "bearing_stiffness": _CONTACT,
+    "bearing_life": _CONTACT,
     "natural_frequencies": (*_DYNAMICS, "modes"),
     "vibration_velocity": (*_DYNAMICS, "reactions", "vibration"),
     "vibration_zone": (*_DYNAMICS, "reactions", "vibration"),
@@ -58,6 +60,11 @@ ELASTIC = ("bodies", "contact", "meshes", "stress", "face", *MOVING)
 POSITION = {"level0": 4e-3, "strips": 7e-3}  # seconds for one planet
 
 
+def rolls(scene: PlanetaryScene) -> bool:
+    """Whether a rolling bearing holds each planet."""
+    return scene.has("bearing_compliance") and scene.drive.planet.bearing is not None
+
+
 def plan(scene: PlanetaryScene) -> Plan:
     """Return what a run would do."""
     d, positions = scene.drive, scene.ask.positions
@@ -71,6 +78,7 @@ def plan(scene: PlanetaryScene) -> Plan:
         if scene.has("inertia"):
             stages["reactions"] = (*_DYNAMICS, "reactions")
     why = WHY if elastic else {name: said for name, said in WHY.items() if name not in ELASTIC}
+    why, stages = with_supports(rolls(scene), *with_casing(scene, why, stages))
     model = scene.accuracy.model or "strips"
     seconds = {
         "blocking": 0.4,
@@ -80,6 +88,7 @@ def plan(scene: PlanetaryScene) -> Plan:
         "meshes": 4 * positions * 1e-3,
         "stress": 0.5 + 3e-3 * positions * d.planets,
         "face": 0.0 if d.lead is None else 0.15 * d.lead.slices,
+        "supports": 0.3 if d.planet.bearing is None or d.planet.bearing.seat is None else 1.0,
         "dynamics": 2 * positions * d.planets * POSITION[model],
         "reactions": 0.1,
         "modes": 0.05,

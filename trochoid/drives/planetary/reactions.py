@@ -18,10 +18,13 @@ import numpy as np
 
 from trochoid.drives.planetary.moving import MAIN, Moving
 from trochoid.drives.planetary.series import Series
-from trochoid.dynamics.hill import growth, lowered, rate, steady, varied
+from trochoid.dynamics.elastic import modal_damper
+from trochoid.dynamics.floquet import fail_if_growing
+from trochoid.dynamics.hill import lowered, rate, steady, varied
 from trochoid.dynamics.modes import Modes, natural_modes
 from trochoid.dynamics.spectrum import harmonics, highest_harmonic
-from trochoid.kinematics.errors import NotConverged, TrochoidError
+from trochoid.dynamics.work import unmet
+from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, frozen
 
 STILL = 1e-11  # of the largest force: what rounding leaves
@@ -80,19 +83,11 @@ def reactions(set_: Moving, series: Series, damping: float) -> Reactions:
         raise TrochoidError("reactions over a pitch need at least 3 positions: raise ask.positions")
     stiffness, (mass, coriolis, centrifugal) = set_.stiffness(), set_.inertia()
     modes = natural_modes(mass, stiffness.mean(axis=0))
-    natural, weighted = modes.angular_frequencies, mass @ modes.shapes
-    damper = (weighted * (2.0 * damping * natural)) @ weighted.T
-    slow = np.divide(2.0 * damping, natural, out=np.zeros_like(natural), where=natural > 0.0)
-    delay = (modes.shapes * slow) @ weighted.T  # C = K̄ T
+    damper, delay = modal_damper(mass, modes, damping)  # C = K̄ T
     left = -_accelerated(set_, set_.motion) * set_.mass @ set_.free
     whole, speed = stiffness + centrifugal, set_.speed
     y = steady(mass, damper + coriolis, whole, left, speed)
-    grows = growth(mass, damper + coriolis, whole, speed)
-    if grows > 1.0 + 1e-6:
-        raise NotConverged(
-            f"the varying stiffness of the meshes excites itself: free motions grow {grows:.4g} times over each pitch "
-            "and there is no steady motion; change operation.input_speed or raise operation.damping_ratio"
-        )
+    grows = fail_if_growing(mass, damper + coriolis, whole, speed, "the varying stiffness of the meshes")
     rates = rate(y, speed)
     late = rates @ delay.T
     loss = float((rates * (rates @ damper)).sum(axis=1).mean())
@@ -221,9 +216,7 @@ def _work(set_: Moving, y: Array, springs: Array, loss: float) -> float:
     rates, own = rate(y, set_.speed) @ set_.free.T, y @ set_.free.T
     drives = -_accelerated(set_, set_.motion) * set_.mass
     gyroscopic = -_accelerated(set_, own) * set_.mass
-    parts = [float((rates * x).sum(axis=1).mean()) for x in (drives, gyroscopic, -springs)]
-    gross = sum(float(np.abs(rates * x).sum(axis=1).mean()) for x in (drives, gyroscopic, springs)) + loss
-    return abs(sum(parts) - loss) / gross if gross > 0.0 else 0.0
+    return unmet(rates, (drives, gyroscopic, -springs), loss)
 
 
 def _resonance(set_: Moving, modes: Modes, y: Array, added: Array, damping: float) -> Resonance | None:

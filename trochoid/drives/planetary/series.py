@@ -11,6 +11,7 @@ from trochoid.drives.planetary.bodies import Level
 from trochoid.drives.planetary.contact import Layout, Load, assembly, centers, layout, twists
 from trochoid.drives.planetary.design import Design
 from trochoid.fem.assembly import Contact, Touch
+from trochoid.fem.moving import softness, wandering
 from trochoid.fem.position import solve_positions
 from trochoid.fem.rows import joined
 from trochoid.kinematics.errors import NotConverged
@@ -51,6 +52,7 @@ class Touches:
 class Series:
     """Positions at input angles (n,) in rad over one pitch; `motion` (n, k) and `stiffness` (n, k, k) on `layout`.
 
+    `wandering` (n,): compliance at the driven member in rad/(N·m) beside the tangent's, of contacts that a load moves;
     `places` (N, 2) of the planets, `rounding` of the tip edges in m; `twists` of shafts at the driven member in
     rad/(N·m), which no contact feels; `imbalance` and `penetration` are the largest relative residuals.
     """
@@ -66,6 +68,7 @@ class Series:
     ring: Touches
     motion: Array
     stiffness: Array
+    wandering: Array
     imbalance: float
     penetration: float
 
@@ -90,15 +93,8 @@ class Series:
     def torsional_stiffness(self) -> Array:
         """Torque per rotation (n,) at the driven member with the driving one held, N·m/rad: the tangent."""
         row = self.layout.names.index(f"{self.layout.driven}.rotation")
-        unit = np.zeros(len(self.layout.names))
-        unit[row] = 1.0
-        size = np.sqrt(np.maximum(np.einsum("nkk->nk", self.stiffness), 0.0))
-        scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0)
-        # a planet that nothing presses turns freely: its row is empty, and the least solution leaves it alone
-        unitless = self.stiffness * scale[:, :, None] * scale[:, None]
-        answer = np.linalg.pinv(unitless, rcond=1e-12, hermitian=True) @ (unit * scale)[..., None]
-        yields = answer[:, row, 0] * scale[:, row]
-        whole = yields + sum(self.twists.values())
+        yields = softness(self.stiffness, row)[:, row]
+        whole = yields + self.wandering + sum(self.twists.values())
         return np.asarray(np.divide(1.0, whole, out=np.zeros_like(yields), where=yields > 0))
 
     @property
@@ -135,14 +131,17 @@ def solve_series(
 ) -> Series:
     """Solve positions at input angles (n,) in rad on "level0" or "strips". Raises NotConverged."""
     parts: list[tuple[IntArray, Contact]] = []
+    wanders, row = np.zeros(len(angle)), layout(design).names.index(f"{design.drive.driven}.rotation")
     for start in range(0, len(angle), CHUNK):
         rows = np.arange(start, min(start + CHUNK, len(angle)))
         problem = assembly(design, turning, level, load, angle[rows])
         try:
-            parts.append((rows, solve_positions(problem, resolve=rung == "strips")))
+            contact = solve_positions(problem, resolve=rung == "strips")
         except NotConverged as fault:
             at = np.degrees(angle[rows[fault.row or 0]])
             raise NotConverged(f"at input angle {at:.6g}°: {fault}") from fault
+        parts.append((rows, contact))
+        wanders[rows] = wandering(problem, contact, softness(contact.stiffness, row))
     found, count = joined(parts), design.drive.planets
     sun, ring = ([found.touches[f"{name}{i}"] for i in range(count)] for name in ("sun", "ring"))
     width = design.drive.face_width
@@ -158,6 +157,7 @@ def solve_series(
         _gathered(ring, width),
         found.motion,
         found.stiffness,
+        frozen(wanders),
         float(found.imbalance.max()),
         float(found.penetration.max()),
     )

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from trochoid.clock import Clock
+from trochoid.drives.casing import casing_reasons
 from trochoid.drives.choosing import POSITIONS, Chosen, choose, or_level0
 from trochoid.drives.mesh_error import Pair
 from trochoid.drives.planetary.design import Design, design
@@ -15,6 +16,7 @@ from trochoid.kinematics.train import Speeds, planetary_train, speeds
 from trochoid.scene.drive_planetary import PlanetaryScene
 
 if TYPE_CHECKING:
+    from trochoid.drives.casing import Shaken
     from trochoid.drives.planetary.blocking import Blocking
     from trochoid.drives.planetary.bodies import Level
     from trochoid.drives.planetary.contact import Load
@@ -27,7 +29,9 @@ if TYPE_CHECKING:
     from trochoid.drives.planetary.rigid import Rigid
     from trochoid.drives.planetary.roots import Roots
     from trochoid.drives.planetary.series import Series
-    from trochoid.drives.planetary.vibration import CasingVibration
+    from trochoid.drives.rolling import Held
+    from trochoid.drives.vibration import CasingVibration
+    from trochoid.fem.solid import SolidBody
     from trochoid.geometry.planetary_curves import Members
 
 LEAST = 10
@@ -68,7 +72,7 @@ class Stages:
 
         with self.clock.stage("geometry"):
             made = design(self.scene)
-            reasons = faults(made)
+            reasons = [*faults(made), *casing_reasons(self.scene)]
             if reasons:
                 raise Infeasible("\n".join(reasons))
         return made
@@ -168,6 +172,7 @@ class Stages:
         """
         from trochoid.drives.planetary.estimate import worst_error
 
+        self.supported  # noqa: B018 - refuses what cannot hold before anything is meshed
         accuracy, levels, faults = self.scene.accuracy, self.levels, list[str]()
         built: dict[int, Level] = {}
         solved: dict[int, Series] = {}
@@ -206,6 +211,31 @@ class Stages:
 
         solved = self.contact
         return 0.0 if solved.coarse is None else max(differences(solved.fine, solved.coarse).values())
+
+    @cached_property
+    def supported(self) -> bool:
+        """Whether a rolling bearing holds each planet; its stiffness is then found under the planet's force."""
+        from trochoid.drives.planetary.plan import rolls
+
+        made = self.feasible
+        if not rolls(self.scene):
+            return False
+        if self.scene.drive.planet.bearing_stiffness is not None:
+            return True
+        with self.clock.stage("supports"):
+            made.planet_seat  # noqa: B018 - solved once, and kept
+        return True
+
+    @cached_property
+    def rolling(self) -> tuple[Held, ...]:
+        """Rolling bearing of each planet under its forces over a pitch."""
+        if not self.supported:
+            return ()
+        solved = self.contact
+        with self.clock.stage("supports"):
+            from trochoid.drives.planetary.bearings import under
+
+            return under(self.feasible, solved.fine)
 
     @cached_property
     def roots(self) -> Pair[Roots]:
@@ -284,13 +314,32 @@ class Stages:
             return set_.map(natural_modes)
 
     @cached_property
+    def casing_body(self) -> SolidBody:
+        """The elastic casing as a finite-element body."""
+        from trochoid.drives.casing_body import casing_body
+
+        return casing_body(self.scene, self.clock)
+
+    @cached_property
+    def casing(self) -> Pair[Shaken]:
+        """The casing, and its variants without single effects."""
+        from trochoid.drives.casing_body import casings
+
+        return casings(self.scene, self.clock, lambda: self.casing_body)
+
+    @cached_property
     def vibration(self) -> Pair[CasingVibration]:
         """Vibration velocity of the casing."""
-        found = self.reactions
+        found, casing = self.reactions, self.casing
         with self.clock.stage("vibration"):
             from trochoid.drives.planetary.vibration import casing_vibration
+            from trochoid.drives.vibration import on_levels
 
-            return found.map(lambda reactions: casing_vibration(self.feasible, self.speeds, reactions))
+            return on_levels(
+                found,
+                casing,
+                lambda reactions, shaken: casing_vibration(self.feasible, self.speeds, reactions, shaken),
+            )
 
     @property
     def moves(self) -> bool:

@@ -8,43 +8,50 @@ nothing.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
+from trochoid.drives.casing import Shaken
 from trochoid.drives.planetary.design import Design
 from trochoid.drives.planetary.reactions import Reactions
-from trochoid.drives.vibration import casing_of, zone_of
-from trochoid.dynamics.vibration import Vibration, positions_for, vibrate
+from trochoid.drives.vibration import SLOW, CasingVibration, Load, shaken
+from trochoid.dynamics.vibration import Vibration, positions_for
 from trochoid.dynamics.wrench import Wrench
-from trochoid.dynamics.zones import Zone
 from trochoid.kinematics.train import Speeds
 from trochoid.kinematics.types import Array, frozen
 
 
-@dataclass(frozen=True, slots=True)
-class CasingVibration:
-    """Vibration by the reactions of the moving set, by those of a set without inertia, and the zone."""
-
-    elastic: Vibration
-    static: Vibration
-    zone: Zone
-
-
-def casing_vibration(design: Design, turning: Speeds, found: Reactions) -> CasingVibration:
-    """Shake the casing on its mounts; raises TrochoidError without a casing."""
+def casing_vibration(design: Design, turning: Speeds, found: Reactions, casing: Shaken) -> CasingVibration:
+    """Shake the casing on its mounts with all forces on it."""
     scene, d = design.scene, design.drive
-    casing, points = casing_of(scene)
     pitches = whole_pitches(design)
-    base = found.speed / (2.0 * np.pi) / pitches
-    sense = np.sign(float(turning.members["carrier"]))
-    elastic, static = (
-        _warned(vibrate(casing, on_casing(force, torque[d.fixed], pitches, sense), base, points), pitches)
-        for force, torque in ((found.force, found.torque), (found.static_force, found.static_torque))
-    )
+    sense = float(np.sign(float(turning.members["carrier"])))
+    loads = {}
+    for name, force, torque in (
+        ("elastic", found.force, found.torque),
+        (SLOW, found.static_force, found.static_torque),
+    ):
+        held = torque[d.fixed]
+        loads[name] = Load(
+            on_casing(force, held, pitches, sense), partial(by_place, force, (d.fixed, held), pitches, sense)
+        )
     speed = scene.operation.input_speed
     driven = abs(float(turning.members[d.driven])) * speed
-    return CasingVibration(elastic, static, zone_of(scene, elastic, (speed, driven)))
+    made = shaken(scene, casing, loads, found.speed / (2.0 * np.pi) / pitches, (speed, driven))
+    return made.said(lambda vibration: _warned(vibration, pitches))
+
+
+def by_place(
+    force: Mapping[str, Array], holds: tuple[str, Array], pitches: int, sense: float
+) -> dict[str, Wrench]:
+    """Return what each member about the main axis puts on the casing, the torque where the fixed one is held."""
+    fixed, torque = holds
+    return {
+        name: on_casing({name: each}, torque if name == fixed else 0.0 * torque, pitches, sense)
+        for name, each in force.items()
+    }
 
 
 def _warned(found: Vibration, pitches: int) -> Vibration:

@@ -29,7 +29,8 @@ QUANTITIES = answers(
             "power_loss",
             "bearing_loads",
         ),
+        "answers_bearings": ("bearing_stiffness", "bearing_life"),
         "answers_stress": ("stress_max",),
-        "answers_dynamics": ("reactions", "vibration_velocity", "vibration_zone"),
+        "answers_dynamics": ("reactions", "natural_frequencies", "vibration_velocity", "vibration_zone"),
     },
 )

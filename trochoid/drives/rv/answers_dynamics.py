@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,9 +12,13 @@ from trochoid.drives.rv.numbers import number
 from trochoid.drives.rv.reactions import Forces, Reactions
 from trochoid.drives.rv.spectrum import force_lines, order_of
 from trochoid.drives.rv.stages import Stages
-from trochoid.drives.vibration import CasingVibration, velocity, zone_answer
+from trochoid.drives.vibration import CasingVibration
+from trochoid.drives.vibration_answers import casing_note, velocity_parts, zone_answer
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Parts, Quantity
+
+if TYPE_CHECKING:
+    from trochoid.drives.rv.modes import NaturalModes
 
 # forces (n, m, 2) of one kind of bearing, m alike
 BEARINGS: dict[str, Callable[[Forces], Array]] = {
@@ -90,25 +96,43 @@ def _number(s: Stages, get: Callable[[Reactions], float], unit: str, model: str)
     return number(s, get(s.reactions), s.reaction_levels.map(get), unit, model)
 
 
+def natural_frequencies(s: Stages) -> Quantity:
+    """Natural frequencies by rising frequency, means over the turn, who moves in each, least and largest."""
+    from trochoid.drives.rv.modes import near
+
+    found = s.modes
+    parts: dict[str, Quantity] = {}
+    for i, mode in enumerate(found.modes):
+        value = number(s, mode.frequency, s.mode_levels.map(_frequency(i)), "Hz")
+        over = f"{found.lowest[i]:.5g} to {found.highest[i]:.5g} Hz over the turn"
+        parts[f"mode_{i + 1}"] = replace(value, note=f"{mode.words}; {over}")
+    said = [
+        "undamped, input held, seen from the carrier; mean of those at rest at every place of a turn of the crankshafts"
+    ]
+    if found.free:
+        said.append(f"{found.free} motions are free within their play")
+    return Quantity(parts=parts, note="; ".join([*said, *near(s.design, found)]))
+
+
+def _frequency(i: int) -> Callable[[NaturalModes], float]:
+    def get(found: NaturalModes) -> float:
+        return found.modes[
+            min(i, len(found.modes) - 1)
+        ].frequency  # a coarser mesh may leave more of them free
+
+    return get
+
+
 def vibration_velocity(s: Stages) -> Quantity:
-    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; the rigid load's worst one beside it."""
+    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; without each effect the worst beside it."""
     found = s.vibration
-    model = "rigid" if s.reactions.response is None else "elastic"
-    parts: dict[str, Parts] = {}
-    for i, point in enumerate(found.elastic.points):
-        parts[point.name] = {
-            **{axis: _velocity(s, model, i, j) for j, axis in enumerate("xyz")},
-            "worst": _velocity(s, model, i, None),
-            "worst_rigid": _velocity(s, "rigid", i, None, rigid=True),
-        }
-    return Quantity(parts=parts, note=f"lines up to {found.elastic.resolved_to:.0f} Hz are resolved")
 
+    def made(get: Callable[[CasingVibration], float], unit: str, model: str) -> Quantity:
+        return number(s, get(found), s.vibration_levels.map(get), unit, model)
 
-def _velocity(s: Stages, model: str, point: int, axis: int | None, rigid: bool = False) -> Quantity:
-    def get(found: CasingVibration) -> float:
-        return velocity(found.rigid if rigid else found.elastic, point, axis)
-
-    return number(s, get(s.vibration), s.vibration_levels.map(get), "mm/s", model)
+    best = "rigid" if s.reactions.response is None else "elastic"
+    said = f"lines up to {found.elastic.resolved_to:.0f} Hz are resolved{casing_note(found)}"
+    return Quantity(parts=velocity_parts(found, made, best), note=said)
 
 
 def vibration_zone(s: Stages) -> Quantity:

@@ -12,18 +12,23 @@ from trochoid.fem.position import ElasticBody
 from trochoid.geometry.mesh import Mesh, mesh_outline
 from trochoid.geometry.outline import Outline
 from trochoid.kinematics.errors import NotConverged
+from trochoid.kinematics.types import Array
 
 LOPSIDED = 0.2  # compliance against its transpose; 0.01 is usual
 
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """All distinct discs on one mesh level, and the stiffness of one mesh of sun and planet, N/m."""
+    """All distinct discs on one mesh level, and the stiffness of one mesh of sun and planet, N/m.
+
+    `cranks`: that of the crankshafts' bearings where rolling ones tell it, see `supports`.
+    """
 
     facets_per_lobe: int
     bodies: tuple[Body, ...]
     elastic: tuple[ElasticBody, ...]
     teeth: float
+    cranks: Array | None = None
 
 
 def meshes(design: Design, facets_per_lobe: int) -> tuple[Mesh, ...]:

@@ -6,6 +6,7 @@ then, dF·dδ, is its share of the compliance; the shares add up to the whole, b
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -13,20 +14,24 @@ import numpy as np
 from trochoid.drives.rv.contact import Layout
 from trochoid.drives.rv.supports import PARTS as LINEAR
 from trochoid.fem.coupling import coupling
+from trochoid.fem.moving import wandering
 from trochoid.fem.newton import Point, turning
 from trochoid.fem.pair import FlankPair, HolePair, State
 from trochoid.fem.position import Assembly, Contact, Family
 from trochoid.kinematics.types import Array
 
-PARTS = ("ring_pins", "discs", "arm_bearings", *LINEAR, "turning_levers")
+PARTS = ("ring_pins", "discs", "arm_bearings", *LINEAR, "turning_levers", "wandering_contacts")
 
 
-def compliance_parts(problem: Assembly, motions: Layout, contact: Contact, softness: Array) -> Array:
+def compliance_parts(
+    problem: Assembly, motions: Layout, contact: Contact, softness: Array, sides: Mapping[str, float]
+) -> Array:
     """Return the shares (n, parts) of the ring's compliance in rad/(N·m), in the order of PARTS.
 
     `ring_pins` and `arm_bearings`: the contacts down to a depth of one pin or roller diameter in the disc, with what
-    lies on their other side; `discs`: the rest of the discs; `turning_levers`: forces that turn with the members.
-    nan where nothing resists.
+    lies on their other side; `discs`: the rest of the discs; `turning_levers`: forces that turn with the members;
+    `wandering_contacts`: what contacts yield more where the load moves them, and round `sides` under more of it (see
+    `moving`), which is beside the tangent compliance that the other parts add up to. nan where nothing resists.
     """
     touches = [contact.touches[family.name] for family in problem.families]
     states, forces = tuple(t.state for t in touches), tuple(t.force for t in touches)
@@ -47,6 +52,7 @@ def compliance_parts(problem: Assembly, motions: Layout, contact: Contact, softn
         ]
     )
     turned = turning(problem, Point(states, forces, contact.motion))
+    wandered = wandering(problem, contact, softness, sides)
     result = np.full((len(softness), len(PARTS)), np.nan)
     for n, step in enumerate(softness):
         if np.isnan(step).any():
@@ -59,7 +65,14 @@ def compliance_parts(problem: Assembly, motions: Layout, contact: Contact, softn
         on_pins = float(own[pins[touching]].sum())
         held = motions.of_cranks(step)
         linear = [float(held @ motions.supports.stiffness[part] @ held) for part in LINEAR]
-        result[n] = [on_pins, body, float(own.sum()) - on_pins, *linear, float(step @ turned[n] @ step)]
+        result[n] = [
+            on_pins,
+            body,
+            float(own.sum()) - on_pins,
+            *linear,
+            float(step @ turned[n] @ step),
+            wandered[n],
+        ]
     return result
 
 

@@ -74,10 +74,13 @@ class Layout(Shared):
         return total
 
 
-def layout(design: Design, teeth: float) -> Layout:
-    """Choose the motions; `teeth`: stiffness of one mesh of sun and planet along the line of action, N/m."""
+def layout(design: Design, teeth: float, cranks: Array | None = None) -> Layout:
+    """Choose the motions; `teeth`: stiffness of one mesh of sun and planet along the line of action, N/m.
+
+    `cranks`: that of the crankshafts' bearings, see `supports`.
+    """
     discs = [f"disc{i}.{m}" for i in range(len(design.discs)) for m in ("x", "y", "rotation")]
-    held = supports(design, teeth)
+    held = supports(design, teeth, cranks)
     return Layout((*discs, *held.names, RING), held)
 
 
@@ -179,11 +182,16 @@ def _arm(
 
 def _on_cage(design: Design, crank: Array) -> Array:
     """Return the rollers (n, c, 2) of a bearing about the eccentric's centre: they roll on it and in the hole."""
-    inner, outer = design.race_radius, design.drive.arm_bearing.hole_radius
     place = circle(design.pitch_radius, design.drive.arm_bearing.rollers)
-    angle = crank * inner / (inner + outer)
+    angle = cage_angle(design, crank)
     c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
     return np.stack([c * place[:, 0] - s * place[:, 1], s * place[:, 0] + c * place[:, 1]], axis=-1)
+
+
+def cage_angle(design: Design, crank: Array) -> Array:
+    """Return the angle (n,) of a bearing's first roller about the eccentric's centre."""
+    inner, outer = design.race_radius, design.drive.arm_bearing.hole_radius
+    return np.asarray(crank * inner / (inner + outer))
 
 
 def roller_seat(design: Design) -> RollerSeat:
@@ -199,6 +207,20 @@ def roller_seat(design: Design) -> RollerSeat:
         bearing.hole_radius,
         design.drive.cycloid.face_width,
     )
+
+
+def side_slopes(design: Design) -> dict[str, float]:
+    """Return by families how their round sides change with the ring's torque, m/N per N·m: rollers have the seat of a
+    typical load.
+    """
+    if not design.scene.has("bearing_compliance") or not design.ring_torque:
+        return {}
+    seat, small = roller_seat(design), 1e-4
+    law = PowerLaw(seat.constant, EXPONENT)
+    force = nominal_arm_force(design)  # grows with the torque in proportion
+    more, less = (seat.seat_for_seat(law, seat.typical_load(force * (1.0 + x))) for x in (small, -small))
+    slope = (more - less) / (2.0 * small * design.ring_torque)
+    return {f"arm{i}_{j}": slope for i in range(len(design.discs)) for j in range(len(design.crank_places))}
 
 
 def nominal_arm_force(design: Design) -> float:

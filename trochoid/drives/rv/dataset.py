@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from trochoid.drives.entries import ANGLE, Entries, Entry, entry, named, numbered
 from trochoid.drives.rv.stages import Stages
+from trochoid.drives.vibration_answers import comparison
 from trochoid.kinematics.types import Array
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ PART_WORDS = {
     "first_stage": "teeth of the first stage",
     "sun_support": "support of the sun",
     "turning_levers": "turning levers",
+    "wandering_contacts": "contacts that the load moves",
 }
 
 
@@ -277,4 +279,5 @@ def _vibration(stages: Stages) -> Entries:
         ),
         "vibration_rms": entry(dims[1:], found.elastic.rms, "m/s", f"rms velocity, {band}"),
         "vibration_rms_rigid": entry(dims[1:], found.rigid.rms, "m/s", f"rms velocity {by_rigid}, {band}"),
+        **comparison(found, np.flatnonzero(lines)),
     }

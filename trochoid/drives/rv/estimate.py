@@ -9,7 +9,6 @@ import numpy as np
 
 from trochoid.drives.choosing import POSITIONS
 from trochoid.drives.mesh_error import relative, worst_of
-from trochoid.kinematics.errors import NotConverged
 
 if TYPE_CHECKING:
     from trochoid.drives.rv.bodies import Level
@@ -50,16 +49,10 @@ def model_error(design: Design, level: Level) -> float:
 
     The stiffness is left out, which moves by 1e-3 as strips come into contact one by one.
 
-    Raises NotConverged where strips find no solution: nobody knows then how wrong Hertz is.
+    Raises NotConverged where strips find no solution: nobody knows then how wrong Hertz is (see `choosing.or_level0`).
     """
     from trochoid.drives.rv.series import solve_series, turn_angles
 
     angle = np.linspace(0.0, turn_angles(design, 1)[-1], POSITIONS, endpoint=False)
-    try:
-        found, true = (solve_series(design, rung, level, angle) for rung in ("level0", "strips"))
-    except NotConverged as fault:
-        raise NotConverged(
-            f'no model can be chosen, for level0 cannot be compared with strips: {fault}; accuracy.model = "level0" '
-            "takes Hertz's pressure all the same, with an error that nobody knows"
-        ) from fault
+    found, true = (solve_series(design, rung, level, angle) for rung in ("level0", "strips"))
     return max(size for name, size in differences(true, found).items() if name != STIFFNESS)

@@ -28,7 +28,7 @@ def faults(design: Design) -> tuple[str, ...]:
         ground = design.flank.modified(design.modification)
         found += tuple(f"modified flank: {fault}" for fault in flank_faults(ground))
         found += placed + (_around(design) if reached else ())
-        found += _bearing(design) + _crankshaft(design) + _ring(design)
+        found += _bearing(design) + _crankshaft(design) + _ring(design) + _rolling(design)
     if stage or (placed and design.first.arm >= root_radius(design.flank)):
         found += _advice(design, bool(profile))
     return tuple(dict.fromkeys(found))
@@ -105,6 +105,16 @@ def _placed(design: Design) -> tuple[str, ...]:
         if not broken:
             found += window_faults(design.flank, c.bore_radius, holes, design.windows(body))
     return found + stack_faults([disc.z for disc in design.discs], c.face_width)
+
+
+def _rolling(design: Design) -> tuple[str, ...]:
+    """The rolling bearings of the crankshafts."""
+    table = design.drive.crankshaft.bearing
+    if table is None or not design.scene.has("bearing_compliance"):
+        return ()
+    from trochoid.drives.rolling import faults as rolling_faults
+
+    return rolling_faults({"crankshaft.bearing": table})
 
 
 def _bearing(design: Design) -> tuple[str, ...]:

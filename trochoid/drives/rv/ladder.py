@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from trochoid.clock import Clock
-from trochoid.drives.choosing import FINEST, choose
+from trochoid.drives.choosing import Chosen, choose, climbed, first_given, or_level0
 from trochoid.drives.mesh_error import Pair
 from trochoid.drives.rv import headline
 from trochoid.drives.rv.plan import STAGES_OF
@@ -74,10 +74,7 @@ def ladder(scene: RvScene, clock: Clock) -> Ladder:
 def levels(stages: Stages) -> tuple[int, ...]:
     """Return the mesh levels: those of a run, or about the facets per lobe that the scene names."""
     given = stages.scene.accuracy.facets_per_lobe
-    found = [stages.coarsest()[0] if given is None else stages.first_given(given)]
-    while 2 * found[-1] <= FINEST or len(found) < 3:
-        found.append(given if given is not None and len(found) == 1 else 2 * found[-1])
-    return tuple(found)
+    return climbed(stages.coarsest()[0] if given is None else first_given(given), given)
 
 
 def _pick(base: Stages, solved: Callable[[str, int | None], Any]) -> Pick:
@@ -86,14 +83,18 @@ def _pick(base: Stages, solved: Callable[[str, int | None], Any]) -> Pick:
 
     accuracy, all_levels = base.scene.accuracy, levels(base)
     given = accuracy.facets_per_lobe
-    chosen = choose(
-        accuracy.tolerance if given is None else float("inf"),
-        all_levels if given is None else all_levels[:2],
-        lambda name, level: solved(name, level).contact.fine,
-        worst_error,
-        lambda: base.model_error(solved("level0", all_levels[0]).built),
-        accuracy.model,
-    )
+
+    def best(rung: str | None) -> Chosen:
+        return choose(
+            accuracy.tolerance if given is None else float("inf"),
+            all_levels if given is None else all_levels[:2],
+            lambda name, level: solved(name, level).contact.fine,
+            worst_error,
+            lambda: base.model_error(solved("level0", all_levels[0]).built),
+            rung,
+        )
+
+    chosen, _ = or_level0(best, accuracy.model)
     named = accuracy.model is not None or given is not None
     error = chosen.error + chosen.model_error
     return Pick(chosen.rung, chosen.levels[-1], error, chosen.of, chosen.levels, named)

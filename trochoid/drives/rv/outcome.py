@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
+from trochoid.drives.choosing import doubtful, unheeded
 from trochoid.drives.gathering import begun, timed
 from trochoid.drives.rv import headline
 from trochoid.drives.rv.plan import why
 from trochoid.drives.rv.stages import Stages
+from trochoid.drives.vibration_answers import casing_checks
 from trochoid.results.outcome import Check, Outcome, Quantity
 
 BALANCE = 1e-9
@@ -27,6 +30,7 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
         headline,
         headline.not_simulated(stages.scene, "contact" in ran),
     )
+    made = replace(made, warnings=tuple(unheeded(stages.scene)))
     if "contact" in ran:
         made = replace(made, checks=checks(stages), warnings=warnings(stages))
     if "geometry" in ran:
@@ -41,9 +45,23 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
                 plots=plots(stages.design),
                 films=(stress_film(stages),) if "stress" in ran else (),
             )
+            if "modes" in ran:
+                made = replace(made, **_modes(stages, made))
     if "reactions" in ran:
         made = replace(made, notes={"Rigid and elastic reactions": stages.reactions.reason})
     return timed(made, stages.clock)
+
+
+def _modes(stages: Stages, made: Outcome) -> dict[str, Any]:
+    """Return plots and films with those of the modes."""
+    from trochoid.drives.rv.mode_shapes import films
+    from trochoid.drives.rv.modes import campbell
+
+    design, series, masses = stages.design, stages.contact.fine, stages.masses
+    return {
+        "plots": (*made.plots, campbell(design, series, masses)),
+        "films": (*made.films, *films(design, series, masses, stages.modes)),
+    }
 
 
 def checks(stages: Stages) -> tuple[Check, ...]:
@@ -67,9 +85,12 @@ def checks(stages: Stages) -> tuple[Check, ...]:
         found["sun and ring give what is stored and lost"] = (stages.losses.fine.residual, BALANCE)
     if "reactions" in stages.clock.seconds:
         found["reactions on the casing sum to the members' inertia"] = (stages.reactions.residual, BALANCE)
+        if stages.reactions.response is not None:
+            found["work on the elastic motion is what damping takes"] = (stages.reactions.work, BALANCE)
     if not np.isnan(split).any():
         found["compliances of the parts add up to the whole"] = (float(split.max()), SUM)
-    return tuple(Check.within(name, value, limit) for name, (value, limit) in found.items())
+    checked = tuple(Check.within(name, value, limit) for name, (value, limit) in found.items())
+    return (*checked, *casing_checks(stages.vibration)) if "vibration" in stages.clock.seconds else checked
 
 
 def warnings(stages: Stages) -> tuple[str, ...]:
@@ -89,6 +110,7 @@ def warnings(stages: Stages) -> tuple[str, ...]:
             "the model; raise operation.output_torque or lower first_stage.sun_stiffness"
         )
     ran = stages.clock.seconds
+    said += doubtful(stages.contact.doubt)
     if "reactions" in ran:
         found = stages.reactions
         if found.mismatch > 0.01:

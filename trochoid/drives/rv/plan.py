@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from trochoid.clock import Clock
-from trochoid.drives.planning import planned
+from trochoid.drives.planning import planned, with_casing, with_supports
 from trochoid.drives.rv.design import design
 from trochoid.drives.rv.stages import COARSEST, Stages
 from trochoid.plan import Plan
@@ -31,7 +31,10 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "power_loss": (*_CONTACT, "losses"),
     "stress_max": (*_CONTACT, "stress"),
     "bearing_loads": _CONTACT,
+    "bearing_stiffness": (*_CONTACT, "bearing"),
+    "bearing_life": _CONTACT,
     "reactions": (*_CONTACT, "mass", "reactions"),
+    "natural_frequencies": (*_CONTACT, "mass", "modes"),
     "vibration_velocity": (*_CONTACT, "mass", "reactions", "vibration"),
     "vibration_zone": (*_CONTACT, "mass", "reactions", "vibration"),
     "balance": (*_GEOMETRY, "mass"),
@@ -48,22 +51,32 @@ WHY = {
     "contact": "all contacts together over a turn of the crankshafts, on both levels",
     "losses": "the running drive with friction, at a few angles",
     "stress": "von Mises field at one position, tension in the fillets of the teeth",
+    "bearing": "stiffness of a turning-arm bearing under its load",
     "reactions": "bearing reactions over a turn of the crankshafts, rigid and elastic",
+    "modes": "natural frequencies at every place of the turn",
     "vibration": "velocity of the casing on its mounts",
     "reversal": "twist under a small torque to either side, at a few angles",
 }
+
+
+def rolls(scene: RvScene) -> bool:
+    """Whether rolling bearings of which no stiffness is given hold the crankshafts."""
+    held = scene.drive.crankshaft.bearing_stiffness is None
+    return held and scene.has("bearing_compliance") and scene.has("elastic_contact")
 
 
 def why(scene: RvScene) -> dict[str, str]:
     """Return what the stages are for that exist with the scene's effects."""
     open_to = [name for name, needs in NEEDS["rv"].items() if all(map(scene.has, needs))]
     able = {stage for name in open_to for stage in STAGES_OF[name]}
-    return {name: said for name, said in WHY.items() if name in able}
+    found, _ = with_casing(scene, {name: said for name, said in WHY.items() if name in able}, {})
+    return with_supports(rolls(scene), found, {})[0]
 
 
 def plan(scene: RvScene) -> Plan:
     """Return what a run would do; raises Infeasible with every reason when the drive cannot be built."""
-    made = planned(scene, why(scene), STAGES_OF, _seconds(scene), _model(scene), 300.0)
+    _, stages_of = with_supports(rolls(scene), *with_casing(scene, WHY, STAGES_OF))
+    made = planned(scene, why(scene), stages_of, _seconds(scene), _model(scene), 300.0)
     if any(stage.needed and stage.name == "geometry" for stage in made.stages):
         Stages(scene, Clock()).feasible  # noqa: B018 - raises Infeasible with every reason
     return made
@@ -92,6 +105,8 @@ def _seconds(scene: RvScene) -> dict[str, float]:
         "losses": 2.5 * contacts,
         "reversal": 0.8 * contacts,
         "stress": 0.8 * c.discs + 0.3,
+        "supports": 2.0 * contacts,
         "reactions": 0.3,
+        "modes": 0.1,
         "vibration": 0.3,
     }

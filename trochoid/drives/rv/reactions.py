@@ -23,7 +23,7 @@ from trochoid.dynamics.carried import Carried, inertia_wrench, respond_carried
 from trochoid.dynamics.elastic import Response, explain
 from trochoid.dynamics.newton_euler import support_reactions
 from trochoid.dynamics.spectrum import close_turn
-from trochoid.dynamics.wrench import Wrench, balance_residual, total, wrench
+from trochoid.dynamics.wrench import Wrench, balance_residual, couple, total, wrench
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, frozen
 
@@ -47,7 +47,8 @@ class Reactions:
     """Over n positions of one turn of the crankshafts as seen from the carrier, in its frame, at input `angle` (n,).
 
     `casing` and `casing_rigid`: resultant on the casing. `mismatch` is how far the record is from closing after the
-    turn, relative; `residual` how far the sum of all forces on the casing is from the members' inertia.
+    turn, relative; `residual` how far the sum of all forces on the casing is from the members' inertia, `work` how far
+    the work on the elastic motion is from what damping takes.
     """
 
     angle: Array
@@ -59,6 +60,7 @@ class Reactions:
     reason: str
     mismatch: float
     residual: float
+    work: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,15 +171,32 @@ def _residual(design: Design, series: Series, found: Forces, inertia: Wrench) ->
 
     About x and y; the torques about z have their own checks.
     """
-    ends = np.array([[0.0, 0.0, z] for z in carrier_bearings(design)])
-    sun = np.array([[0.0, 0.0, design.drive.crankshaft.planet_position]])
-    felt = [
-        wrench(_disc_places(design), found.ring),
-        wrench(ends, found.main),
-        wrench(sun, found.sun[:, None]),
-    ]
     plane = replace(inertia, force=-inertia.force, moment=-inertia.moment * [1.0, 1.0, 0.0])
-    return balance_residual([*felt, plane])
+    return balance_residual([*_felt(design, found).values(), plane])
+
+
+def on_casing(design: Design, found: Reactions, model: str) -> dict[str, Wrench]:
+    """Return what the casing feels by a model, "rigid" or "elastic", by the names of the places (needs.SEATS_OF).
+
+    In the carrier's frame. The couple about z acts where the member that stands still is held.
+    """
+    forces = found.rigid if model == "rigid" or found.elastic is None else found.elastic
+    whole = found.casing_rigid if forces is found.rigid else found.casing
+    places = _felt(design, forces)
+    held = {"ring": ("ring",), "sun": ("sun",), "carrier": ("carrier A", "carrier B")}[design.drive.fixed]
+    about_z = couple(whole.moment * [0.0, 0.0, 1.0 / len(held)])
+    return {name: total([load, about_z]) if name in held else load for name, load in places.items()}
+
+
+def _felt(design: Design, found: Forces) -> dict[str, Wrench]:
+    """Return what the casing feels of ring, carrier and sun, by the names of the places."""
+    main = [np.array([[0.0, 0.0, z]]) for z in carrier_bearings(design)]
+    sun = np.array([[0.0, 0.0, design.drive.crankshaft.planet_position]])
+    return {
+        "ring": wrench(_disc_places(design), found.ring),
+        **{f"carrier {x}": wrench(main[i], found.main[:, [i]]) for i, x in enumerate("AB")},
+        "sun": wrench(sun, found.sun[:, None]),
+    }
 
 
 def _elastic(
@@ -187,7 +206,10 @@ def _elastic(
     motion, _ = close_turn(series.motion)
     carried = carried_masses(design, motions, masses)
     speed = abs(design.turning) * design.scene.operation.input_speed
-    found = respond_carried(motion, carried, series.stiffness[:-1], speed, frame_speed(design), damping)
+    stiffness = series.stiffness[:-1]
+    found = respond_carried(  # modes swing many times while the crankshafts turn: as good as at rest
+        motion, carried, stiffness, speed, frame_speed(design), damping, stiffness[0]
+    )
     changed = _changed(design, series, loads, found)
     elastic = _forces(design, series, changed)
     casing = total([made.casing_rigid, inertia_wrench(carried, found)])
@@ -198,6 +220,7 @@ def _elastic(
         response=found.response,
         reason=explain(found.response, [_spoken(name) for name in motions.names]),
         residual=max(made.residual, _residual(design, series, elastic, casing)),
+        work=found.work,
     )
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from trochoid.drives.anderson import fixed_points
+from trochoid.drives.anderson import fixed_points, unsettled
 from trochoid.drives.rv.balance import across
 from trochoid.drives.rv.bodies import Level
 from trochoid.drives.rv.contact import Layout, assembly, layout, ring_turn
@@ -45,7 +45,7 @@ class Running:
 def run(design: Design, rung: str, level: Level) -> Running:
     """Solve the running drive at a few angles over a turn of the crankshafts. Raises NotConverged with the angle."""
     angle = np.linspace(0.0, turn_angles(design, 1)[-1], POSITIONS, endpoint=False)
-    crank, motions = design.crank_angle(angle), layout(design, level.teeth)
+    crank, motions = design.crank_angle(angle), layout(design, level.teeth, level.cranks)
     problem = assembly(design, motions, level.elastic, crank)
     found: list[Contact] = []
 
@@ -60,10 +60,9 @@ def run(design: Design, rung: str, level: Level) -> Running:
         at = np.degrees(angle[fault.row or 0])
         raise NotConverged(f"running with friction, at input angle {at:.6g}°: {fault}") from fault
     if not left.max() <= BALANCED:
-        raise NotConverged(
-            f"running with friction, at input angle {np.degrees(angle[left.argmax()]):.6g}°: friction and contact "
-            f"forces do not settle ({left.max():.1e} of them is left); take smaller coefficients or a larger torque"
-        )
+        effect = design.scene.friction
+        given = {} if effect is None else {"ring_pins": effect.ring_pins, "teeth": effect.teeth}
+        raise NotConverged(unsettled(float(angle[left.argmax()]), float(left.max()), given))
     return _gathered(design, motions, found[-1], angle, crank)
 
 

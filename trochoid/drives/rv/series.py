@@ -9,8 +9,9 @@ import numpy as np
 
 from trochoid.drives.rv.bodies import Level
 from trochoid.drives.rv.breakdown import compliance_parts
-from trochoid.drives.rv.contact import Layout, assembly, layout
+from trochoid.drives.rv.contact import Layout, assembly, layout, side_slopes
 from trochoid.drives.rv.design import Design
+from trochoid.fem.moving import softness
 from trochoid.fem.position import Assembly, Contact, Touch, solve_positions
 from trochoid.fem.rows import joined, taken
 from trochoid.kinematics.errors import NotConverged
@@ -94,7 +95,7 @@ def solve_series(
 
     Raises NotConverged with the position.
     """
-    motions, crank = layout(design, level.teeth), design.crank_angle(angle)
+    motions, crank = layout(design, level.teeth, level.cranks), design.crank_angle(angle)
     parts: list[tuple[IntArray, Series]] = []
     for start in range(0, len(angle), CHUNK):
         rows = np.arange(start, min(start + CHUNK, len(angle)))
@@ -110,7 +111,7 @@ def solve_series(
 
 def solve_at(design: Design, rung: str, level: Level, angle: float) -> Contact:
     """Solve one input angle in rad; arrays have no axis of positions. Raises NotConverged."""
-    motions, crank = layout(design, level.teeth), design.crank_angle(np.array([angle]))
+    motions, crank = layout(design, level.teeth, level.cranks), design.crank_angle(np.array([angle]))
     try:
         found = solve_positions(assembly(design, motions, level.elastic, crank), resolve=rung == "strips")
     except NotConverged as fault:
@@ -124,7 +125,8 @@ def _gathered(
     discs, cranks = range(len(design.discs)), range(len(design.crank_places))
     touches, length = contact.touches, design.drive.arm_bearing.roller_length
     arms = [_touches([touches[f"arm{i}_{j}"] for j in cranks], length) for i in discs]
-    softness = _softness(contact.stiffness)
+    soft = softness(contact.stiffness, len(motions.names) - 1)
+    parts = compliance_parts(problem, motions, contact, soft, side_slopes(design))
     return Series(
         rung,
         frozen(angle),
@@ -134,8 +136,8 @@ def _gathered(
         Touches(*(frozen(np.stack([getattr(x, f.name) for x in arms], axis=1)) for f in fields(Touches))),
         frozen(contact.motion),
         frozen(contact.stiffness),
-        frozen(softness[:, -1]),
-        frozen(compliance_parts(problem, motions, contact, softness)),
+        frozen(soft[:, -1] + parts[:, -1]),
+        frozen(parts),
         frozen(contact.imbalance),
         frozen(contact.penetration),
     )
@@ -145,23 +147,6 @@ def woven(every_fourth: Series, between: Series) -> Series:
     """Join a series at every STRIDE-th position with one at those between."""
     rows = np.arange(len(every_fourth.angle) + len(between.angle))
     return joined([(rows[::STRIDE], every_fourth), (rows[rows % STRIDE > 0], between)])
-
-
-def _softness(stiffness: Array) -> Array:
-    """Return the motions (n, k) per unit of load on the last one, from tangents (n, k, k); nan where none resists."""
-    found = np.full(stiffness.shape[:2], np.nan)
-    unit = np.zeros(stiffness.shape[1])
-    unit[-1] = 1.0
-    for i, one in enumerate(stiffness):
-        size = np.sqrt(np.maximum(np.diag(one), 0.0))
-        if size[-1] == 0.0:
-            continue
-        scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0)
-        unitless, load = one * np.outer(scale, scale), unit * scale
-        answer, *_ = np.linalg.lstsq(unitless, load, rcond=1e-13)
-        if np.abs(unitless @ answer - load).max() <= 1e-6 * load[-1]:
-            found[i] = answer * scale
-    return found
 
 
 def _touches(families: Sequence[Touch], width: float) -> Touches:

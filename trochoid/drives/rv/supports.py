@@ -18,6 +18,7 @@ from trochoid.fem.beam import Step, condensed, shaft
 from trochoid.fem.material import Material
 from trochoid.kinematics.types import Array, frozen
 
+HELD = 1e9  # N/m: any number, in whose place rigid bearings stand
 PARTS = ("crankshafts", "crank_bearings", "first_stage", "sun_support")
 
 
@@ -27,9 +28,9 @@ class Supports:
 
     `stiffness[part]` (k, k) is the share of each part, their sum the whole. Per unit motion: `bearings` (j, 2, 2, k)
     displacement x, y of crankshaft j in its bearing A, B, `meshes` (j, k) approach of the teeth, `sun` (2, k) of the
-    sun; `teeth`, `bearing`, `sun_spring` in N/m turn them into forces. `centers` (j, p, 2, k): displacement of each
-    crankshaft's axis at the `places` (p,) m on the z axis: discs, bearings A and B, planet; `turns` (j, d + 1, k) its
-    rotation at discs and planet.
+    sun; `teeth`, `bearing` (j, 2, 2, 2), `sun_spring` in N/m turn them into forces. `centers` (j, p, 2, k):
+    displacement of each crankshaft's axis at the `places` (p,) m on the z axis: discs, bearings A and B, planet;
+    `turns` (j, d + 1, k) its rotation at discs and planet.
     """
 
     names: tuple[str, ...]
@@ -38,7 +39,7 @@ class Supports:
     meshes: Array
     sun: Array
     teeth: float
-    bearing: float
+    bearing: Array
     sun_spring: float
     places: Array
     centers: Array
@@ -55,7 +56,8 @@ class Supports:
 
     def bearing_forces(self, motion: Array) -> Array:
         """Force (n, j, 2, 2) of each crankshaft on the carrier in its bearings A and B, N."""
-        return np.asarray(self.bearing * np.einsum("jbxk,nk->njbx", self.bearings, motion))
+        moved = np.einsum("jbxk,nk->njbx", self.bearings, motion)
+        return np.asarray(np.einsum("jbxy,njby->njbx", self.bearing, moved))
 
 
 def material(design: Design) -> Material:
@@ -72,9 +74,12 @@ def pressing(design: Design) -> Array:
     return math.cos(alpha) * across + math.sin(alpha) * out
 
 
-def supports(design: Design, teeth: float) -> Supports:
+def supports(design: Design, teeth: float, on_bearings: Array | None = None) -> Supports:
     """Assemble shafts, bearings, teeth (N/m along the line of action, one mesh) and sun, and condense them on the
     motions of the eccentrics.
+
+    `on_bearings` (2, 2, 2): stiffness of the bearings A and B of a crankshaft along the line from the carrier's axis
+    to it and across, N/m, where the scene gives none.
     """
     rigid = not design.scene.has("bearing_compliance")
     cranks, discs = len(design.crank_places), len(design.discs)
@@ -88,6 +93,7 @@ def supports(design: Design, teeth: float) -> Supports:
     centers, turns = np.zeros((cranks, at, 2, count)), np.zeros((cranks, discs + 1, count))
     meshes = np.zeros((cranks, count))
     normals, base = pressing(design), design.first.pair.second.base_radius
+    held_by = _bearings(design, on_bearings, rigid)
     for j in range(cranks):
         first = j * size
         x, y = first + np.arange(at), first + at + np.arange(at)
@@ -100,7 +106,7 @@ def supports(design: Design, teeth: float) -> Supports:
         turns[j, range(discs + 1), spin] = 1.0
         for b in range(2):
             one = centers[j, discs + b]
-            parts["crank_bearings"] += table.bearing_stiffness * one.T @ one
+            parts["crank_bearings"] += one.T @ held_by[j, b] @ one
         meshes[j, spin[-1]] = base
         meshes[j, [x[-1], y[-1]]] = -normals[j]
         meshes[j, -2:] = normals[j]
@@ -119,12 +125,24 @@ def supports(design: Design, teeth: float) -> Supports:
         frozen(meshes @ shape),
         frozen(shape[-2:]),
         teeth,
-        table.bearing_stiffness,
+        held_by,
         held,
         frozen(places),
         frozen(centers @ shape),
         frozen(turns @ shape),
     )
+
+
+def _bearings(design: Design, cranks: Array | None, rigid: bool) -> Array:
+    """Return the stiffness (j, 2, 2, 2) along x and y of every crankshaft in its bearings A and B, N/m."""
+    count, given = len(design.crank_places), design.drive.crankshaft.bearing_stiffness
+    if given is not None or rigid:  # rigid ones do not move
+        return frozen(np.tile((given or HELD) * np.eye(2), (count, 2, 1, 1)))
+    assert cranks is not None
+    out = design.crank_places / design.first.arm
+    axes = np.stack([out, np.stack([-out[:, 1], out[:, 0]], axis=-1)], axis=1)
+    found = np.einsum("jax,bac,jcy->jbxy", axes, cranks, axes)
+    return frozen(0.5 * (found + np.swapaxes(found, -1, -2)))
 
 
 def _steps(design: Design) -> list[Step]:

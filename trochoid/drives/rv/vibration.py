@@ -11,29 +11,41 @@ from fractions import Fraction
 
 import numpy as np
 
+from trochoid.drives.casing import Shaken
 from trochoid.drives.rv.design import Design
-from trochoid.drives.rv.reactions import Reactions
-from trochoid.drives.vibration import CasingVibration, shaken
+from trochoid.drives.rv.reactions import Reactions, on_casing
+from trochoid.drives.vibration import RIGID, CasingVibration, Load, shaken
 from trochoid.dynamics.carried import to_fixed
 from trochoid.dynamics.vibration import Vibration
+from trochoid.dynamics.wrench import Wrench
 
 CUT = "the positions resolve"  # how the warning begins that counts positions of the whole record
 
 
-def casing_vibration(design: Design, found: Reactions) -> CasingVibration:
-    """Shake the casing on its mounts with the resultant of all forces on it; raises TrochoidError without a casing."""
+def casing_vibration(design: Design, found: Reactions, casing: Shaken) -> CasingVibration:
+    """Shake the casing on its mounts with all forces on it."""
     carrier = design.speeds.members["carrier"]
     each = Fraction(carrier) / abs(
         design.speeds.relative("planet", "carrier")
     )  # turns per turn of the crankshafts
     repeats, step = each.denominator, 2.0 * np.pi * float(each)
     angle = float(carrier) * found.angle
-    load, rigid = (to_fixed(x, angle, repeats, step) for x in (found.casing, found.casing_rigid))
+
+    def fixed(load: Wrench) -> Wrench:
+        return to_fixed(load, angle, repeats, step)
+
+    def by_seat(model: str) -> dict[str, Wrench]:
+        return {name: fixed(load) for name, load in on_casing(design, found, model).items()}
+
+    loads = {
+        "elastic": Load(fixed(found.casing), lambda: by_seat("elastic")),
+        RIGID: Load(fixed(found.casing_rigid), lambda: by_seat("rigid")),
+    }
     speed = design.scene.operation.input_speed
     base = abs(design.turning) * speed / (2.0 * np.pi) / repeats
     driven = abs(float(design.speeds.members[design.driven])) * speed
-    made = shaken(design.scene, load, rigid, base, (speed, driven))
-    return replace(made, elastic=_said(design, made.elastic), rigid=_said(design, made.rigid))
+    made = shaken(design.scene, casing, loads, base, (speed, driven))
+    return made.said(lambda vibration: _said(design, vibration))
 
 
 def _said(design: Design, found: Vibration) -> Vibration:
