@@ -10,8 +10,8 @@ from benchmarks.table import Table, plain, summary, text
 from trochoid.console import one_thread
 
 # in this order: the peak memory of a child process counts what its parent has loaded, so "run" and "scaling" come first
-ALL = ("run", "scaling", "disc", "gear", "speed", "dynamics", "estimate", "closed_forms", "calculix")
-LONG = ("choice",)  # many minutes: measured only when named; `--quick` takes fewer cases
+ALL = ("run", "scaling", "disc", "gear", "speed", "dynamics", "estimate", "closed_forms", "cone", "calculix")
+LONG = ("choice", "effects")  # many minutes: measured only when named; `--quick` takes fewer cases
 
 
 def main() -> None:

@@ -14,18 +14,20 @@ from time import process_time
 import numpy as np
 
 from benchmarks.table import Row, Table
+from trochoid.fem.cone_assembly import ConeAssembly, ConeContact
 from trochoid.fem.cone_body import cone_body
 from trochoid.fem.cone_estimate import estimate
 from trochoid.fem.cone_flank import flank
 from trochoid.fem.cone_layers import layers
 from trochoid.fem.cone_pair import RIGID, roller_pair
-from trochoid.fem.cone_position import ConeAssembly, ConeContact, solve_cone
+from trochoid.fem.cone_position import solve_cone
 from trochoid.fem.cone_resolved import Resolved, Window, resolve
 from trochoid.fem.cone_rim import Rim, RimMesh, RimSize, press_rim
 from trochoid.fem.material import Material
 from trochoid.geometry.sphere_mesh import mesh_sphere
-from trochoid.geometry.sphere_outline import RimShape, outline_of_breaks
+from trochoid.geometry.sphere_outline import outline_of_breaks
 from trochoid.geometry.sphere_refined import Focus, refined_breaks
+from trochoid.geometry.sphere_rim import RimShape
 from trochoid.kinematics.sphere_tooth import SphereTooth
 from trochoid.kinematics.types import Array, IntArray
 

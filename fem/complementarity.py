@@ -14,15 +14,15 @@ progress, by single pivots. κ falls step by step until the springs carry nothin
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from trochoid.fem.equalities import missing, opened, tangents
+from trochoid.fem.equalities import missing, tangents
 from trochoid.fem.pivoting import PIVOTS, Pivoted, pivot
 from trochoid.fem.problem import Alike, Group, Problem, Solution, Unit
 from trochoid.fem.rows import joined, taken
-from trochoid.fem.scales import Scale, force_size, gap_size, scales
+from trochoid.fem.scales import Scale, force_rounding, force_size, gap_size, scales
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array, BoolArray, IntArray
 
@@ -42,9 +42,25 @@ __all__ = [
 
 STEPS = 60
 ROUNDING = 1e-13  # of the force and gap scale: what may be left of the equations
+SOFT = 1e-9  # of the stiffness of contacts: how soft proximal springs may become
+PATIENCE = 12  # steps before what is left is laid to weak springs or to rounding
+OWN = 1e-3  # of a motion's own weak spring: how soft the proximal spring becomes then
+UNSURE = 1e-9  # of the force scale: where rounding leaves more, forces are not known well enough
 STUCK = (
     "contact: no complementary solution after {} pivots; check that gaps and compliances are finite and the "
     "stiffness of the bodies differs by less than 1e9"
+)
+UNRESISTED = (
+    "contact: nothing resists motion {} although it carries a load of {:g}; support it, or let a contact act "
+    "on it"
+)
+UNSETTLED = (
+    "contact: no equilibrium after {} steps; motion {} is still out of balance by {:.1e} of the largest force: what "
+    "holds it may be too soft for the load"
+)
+HIDDEN = (
+    "contact: a spring of {:.1e} N/m between members that move together leaves {:.1e} N to rounding, beside forces of "
+    "{:.1e} N; take {:.0e} N/m at most, or more load"
 )
 
 
@@ -88,7 +104,7 @@ class Attempt:
 def attempt(problem: Problem, start: Solution | None, most: int = PIVOTS) -> Attempt:
     """Solve every position that can be solved."""
     scale, kappa = scales(problem)
-    softest = np.minimum(scale.stiffness[:, None] / scale.motion**2 * 1e-9, kappa)
+    softest = np.minimum(scale.stiffness[:, None] / scale.motion**2 * SOFT, kappa)
     if start is None:
         side = tuple(np.where(np.isfinite(g.gap), 0, -1) for g in problem.groups)
         motion = np.zeros_like(problem.load)
@@ -100,9 +116,11 @@ def attempt(problem: Problem, start: Solution | None, most: int = PIVOTS) -> Att
     )
     done: list[tuple[IntArray, Solution]] = []
     faults: dict[int, str] = {}
-    for _ in range(STEPS):
+    for step in range(STEPS):
+        if step == PATIENCE:
+            work = replace(work, softest=_own(work))
         found = pivot(work.problem, work.side, work.motion, work.kappa, work.scale, most)
-        solution, settled, lost = _judged(work, found)
+        solution, settled, lost = _judged(work, found, patient=step < PATIENCE)
         for row in np.flatnonzero(lost):
             faults[int(work.rows[row])] = STUCK.format(most)
         finished = settled | lost
@@ -113,7 +131,7 @@ def attempt(problem: Problem, start: Solution | None, most: int = PIVOTS) -> Att
         work = taken(_softened(work, found), np.flatnonzero(~finished))
     else:
         done.append((work.rows, taken(solution, np.flatnonzero(~finished))))
-        for row, message in zip(work.rows, _unresisted(work), strict=True):
+        for row, message in zip(work.rows, _reasons(work, found), strict=True):
             faults[int(row)] = message
     return Attempt(joined(done), faults)
 
@@ -132,15 +150,32 @@ class _Work:
     pivots: IntArray
 
 
-def _judged(work: _Work, found: Pivoted) -> tuple[Solution, BoolArray, BoolArray]:
-    """Return what was found, where the proximal springs carry nothing, and where there is no solution."""
-    held = missing(work.problem, found.step)
+def _judged(work: _Work, found: Pivoted, patient: bool) -> tuple[Solution, BoolArray, BoolArray]:
+    """Return what was found, where the proximal springs carry nothing, and where there is no solution.
+
+    Who is not `patient` any more takes for nothing what stiff springs leave to rounding.
+    """
+    held = np.abs(missing(work.problem, found.step)) * work.scale.motion
     size = force_size(work.scale, work.problem, found.step.forces)
-    imbalance = np.abs(held * work.scale.motion).max(axis=1, initial=0.0) / size
+    imbalance = held.max(axis=1, initial=0.0) / size
+    unsure: Array | float = 0.0
+    if not patient:
+        unsure = force_rounding(work.problem, found.step) * work.scale.motion
+        unsure = np.minimum(unsure, UNSURE * size[:, None])
     deepest = _penetration(found) / gap_size(work.scale, work.problem, found.step)
     pivots = work.pivots + found.pivots
     solution = Solution(found.step.forces, found.step.motion, found.side, pivots, imbalance, deepest)
-    return solution, np.asarray(imbalance <= ROUNDING), found.lost
+    settled = (held <= ROUNDING * size[:, None] + unsure).all(axis=1)
+    return solution, np.asarray(settled), found.lost
+
+
+def _own(work: _Work) -> Array:
+    """Return how soft the proximal springs (n, k) must become where a motion rests on a spring that is weaker still:
+    they would hold it where it happens to be, and its spring pull it home by a little at each step.
+    """
+    own = np.einsum("nkk->nk", work.problem.springs)
+    felt = own * work.scale.far[:, None] * work.scale.motion**2 > ROUNDING * work.scale.force[:, None]
+    return np.where(felt, np.minimum(work.softest, OWN * own), work.softest)
 
 
 def _softened(work: _Work, found: Pivoted) -> _Work:
@@ -159,13 +194,28 @@ def _penetration(found: Pivoted) -> Array:
     return deepest
 
 
-def _unresisted(work: _Work) -> list[str]:
-    """Name each position's motion whose load nothing carries."""
-    zero = [np.zeros_like(g.gap) for g in work.problem.groups]
-    held = missing(work.problem, opened(work.problem, zero, work.motion))
-    worst = np.argmax(np.abs(held) * work.scale.motion, axis=1)
-    return [
-        f"contact: nothing resists motion {i} although it carries a load of {load[i]:g}; "
-        "support it, or let a contact act on it"
-        for i, load in zip(worst, work.problem.load, strict=True)
-    ]
+def _reasons(work: _Work, found: Pivoted) -> list[str]:
+    """Say of each position which motion's load nothing carries, or that rounding hides what does."""
+    held = np.abs(missing(work.problem, found.step)) * work.scale.motion
+    lost = (force_rounding(work.problem, found.step) * work.scale.motion).max(axis=1)
+    size = force_size(work.scale, work.problem, found.step.forces)
+    own = np.einsum("nkk->nk", work.problem.springs)
+    stiffest, felt = own.max(axis=1), _felt(work, found) | (own > 0.0)
+    said = []
+    for row, worst in enumerate(np.argmax(held, axis=1)):
+        if UNSURE * size[row] < lost[row]:
+            most = stiffest[row] * UNSURE * size[row] / lost[row]
+            said.append(HIDDEN.format(stiffest[row], lost[row], size[row], most))
+        elif felt[row, worst]:
+            said.append(UNSETTLED.format(STEPS, worst, held[row, worst] / size[row]))
+        else:
+            said.append(UNRESISTED.format(worst, work.problem.load[row, worst]))
+    return said
+
+
+def _felt(work: _Work, found: Pivoted) -> BoolArray:
+    """Return (n, k) which motions close a contact that is pressed."""
+    pressed = np.zeros_like(work.problem.load)
+    for group, force in zip(work.problem.groups, found.step.forces, strict=True):
+        pressed += np.einsum("nck,nc->nk", np.abs(group.arms).max(axis=2), 1.0 * (force > 0).any(axis=2))
+    return pressed > 0.0

@@ -17,7 +17,8 @@ class Roller:
 
     `own` (s, s) in m/N is its S when it is a body of its own (see `cone_roller`), with `ends` (m) and `blunt` (s,) as
     in `Side`; otherwise half a solid cylinder pressed on its far side as well (Johnson, Contact Mechanics, 5.57):
-    (2/(πE'))(ln(4r/b) − ½) per unit line load, r the roller's radius.
+    (2/(πE'))(ln(4r/b) − ½) per unit line load, r the roller's radius.  `seat` (m/N) is what its pin, and the body that
+    carries the pin, give way by under the roller's whole force, each for itself and without tilting.
     """
 
     kernel: float = 0.0
@@ -25,6 +26,7 @@ class Roller:
     own: Array | None = None
     ends: tuple[float, float] = (0.0, 0.0)
     blunt: Array | None = None
+    seat: float = 0.0
 
 
 RIGID_ROLLER = Roller()

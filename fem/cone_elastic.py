@@ -38,6 +38,8 @@ def elastic_at(assembly: ConeAssembly, state: ConeState) -> Elastic:
     own = rim.on_itself(place)
     if assembly.roller.own is not None:
         own = own + assembly.roller.own
+    if assembly.roller.seat > 0.0:
+        own = own + assembly.roller.seat
     count = len(state.place)
     none = [np.zeros(0, dtype=np.intp)] * count
     return Elastic(

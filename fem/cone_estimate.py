@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trochoid.fem.cone_position import ConeContact
+from trochoid.fem.cone_assembly import ConeContact
 from trochoid.kinematics.types import Array
 
 LEAST = 0.15  # of the worst number's relative error: single numbers agree by chance

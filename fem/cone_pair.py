@@ -1,8 +1,8 @@
 """Conical rollers on the flank of a rim: gaps, arms and curvatures at a displaced pose, from the exact curves.
 
 The rim turns by δ and moves by d against the rollers' member; both in the rim's frame.  Rotations about O keep the
-contact conical: gaps come from the exact nearest point of the flank to each displaced roller axis.  Translations
-close the gap by n·d, to first order, alike along the roller.
+contact conical: gaps come from the exact nearest point of the flank to each displaced roller axis, to rounding of the
+displacement.  Translations close the gap by n·d, to first order, alike along the roller.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 from trochoid.fem.cone_slices import Slices
 from trochoid.kinematics.curve import ArcLength
 from trochoid.kinematics.sphere_tooth import SphereTooth
+from trochoid.kinematics.sphere_tooth_gap import opened
 from trochoid.kinematics.spherical import angle_between, turn, unit
 from trochoid.kinematics.spherical_curve import foot_point
 from trochoid.kinematics.types import Array, BoolArray, IntArray
@@ -49,7 +50,8 @@ class RollerPair:
     `rollers` (C,) are numbers of pins; `moves` (6, k) turns motions into rotation and translation of the rim.
     `clearance` (rad) by which rollers are thinner than the flank was cut for; `relief` (C, s), m, further gaps from
     crowning, misalignment and ground flanks.  `start` is the flank parameter where tooth 0 begins, `edges` those
-    between which a crest is cut away.
+    between which a crest is cut away.  `lean` (rad) tilts the rollers' axes about the middle of their reach: their
+    outer ends move away from the axis of the member that carries them, and round it, to first order.
     """
 
     tooth: SphereTooth
@@ -62,6 +64,7 @@ class RollerPair:
     relief: Array
     arc: ArcLength
     edges: tuple[float, float] | None = None
+    lean: tuple[float, float] = (0.0, 0.0)
 
     def rows(self, rows: IntArray) -> RollerPair:
         """Return the pair at some positions."""
@@ -71,26 +74,39 @@ class RollerPair:
         """Return the contacts after motions (n, k)."""
         step = motion @ self.moves.T
         nominal = self.tooth.contact_parameter(self.rollers, self.crank[:, None])
-        axis = turn(_rotation(-step[:, :3])[:, None], self.tooth.center_path(nominal))
-        shape = nominal.shape
-        parameter, angle = foot_point(self.tooth, axis.reshape(-1, 3), nominal.ravel())
-        parameter, angle = parameter.reshape(shape), angle.reshape(shape)
+        before = self.tooth.center_path(nominal)
+        moved = turn(_turning(-step[:, :3])[:, None], before)
+        axis, shape = before + moved, nominal.shape
+        foot, _ = foot_point(self.tooth, axis.reshape(-1, 3), nominal.ravel())
+        parameter, opening = opened(self.tooth, nominal, moved, foot.reshape(shape))
         parameter, off = self._kept(parameter)
         point, normal = self.tooth.point(parameter), self.tooth.normal(parameter)
         if off.any():  # the nearest point is the edge, and what it presses points at the axis
             away = axis - np.sum(axis * point, axis=-1, keepdims=True) * point
             normal = np.where(off[..., None], unit(away), normal)
-            angle = np.where(off, angle_between(axis, point), angle)
+            opening = np.where(off, angle_between(axis, point) - self.tooth.pin_angle, opening)
         rho = self.slices.middle
-        open_angle = angle - (self.tooth.pin_angle - self.clearance)
+        open_angle = opening + self.clearance
         shift = np.sum(normal * step[:, None, 3:], axis=-1)
         gap = rho * open_angle[..., None] - shift[..., None] + self.relief
+        if any(self.lean):
+            gap = gap + self._leaning(before, normal)[..., None] * (
+                rho - 0.5 * (self.slices.inner[0] + self.slices.outer[-1])
+            )
         lever = rho[:, None] * np.cross(point, normal)[..., None, :]
         both = np.concatenate([lever, np.broadcast_to(normal[..., None, :], lever.shape)], axis=-1)
         bend = self.tooth.curvature(parameter) + 1.0 / np.tan(self.tooth.pin_angle - self.clearance)
         first = float(self.arc.length(self.start))
         place = self.arc.length(parameter) - first
         return ConeState(gap, both @ self.moves, place, parameter, point, normal, bend, off)
+
+    def _leaning(self, axis: Array, normal: Array) -> Array:
+        """Return how much (n, C), rad, the gaps open along the rollers."""
+        carrier = self.tooth.carrier_axis(self.crank)[:, None]
+        round_ = unit(np.cross(carrier, axis))
+        away = np.cross(round_, axis)
+        tilted, skew = self.lean
+        return np.asarray(np.sum((tilted * away + skew * round_) * normal, axis=-1))
 
     def _kept(self, parameter: Array) -> tuple[Array, BoolArray]:
         """Return parameters drawn back from cut crests to their edges, and where that was done."""
@@ -114,12 +130,23 @@ def roller_pair(
     clearance: float = 0.0,
     relief: Array | float = 0.0,
     edges: tuple[float, float] | None = None,
+    lean: tuple[float, float] = (0.0, 0.0),
 ) -> RollerPair:
     """Return all rollers (or those numbered) at crank angles (n,); `start` and `edges` are those of the rim's shape."""
     number = np.arange(tooth.pins) if rollers is None else np.asarray(rollers)
     given = np.broadcast_to(np.asarray(relief, dtype=np.float64), (len(number), len(slices.middle)))
     return RollerPair(
-        tooth, np.atleast_1d(crank), number, slices, moves, start, clearance, given, ArcLength(tooth), edges
+        tooth,
+        np.atleast_1d(crank),
+        number,
+        slices,
+        moves,
+        start,
+        clearance,
+        given,
+        ArcLength(tooth),
+        edges,
+        lean,
     )
 
 
@@ -137,12 +164,12 @@ def tilt(slices: Slices, angle: Array) -> Array:
     return np.asarray(np.multiply.outer(np.asarray(angle, dtype=np.float64), slices.middle - middle))
 
 
-def _rotation(vector: Array) -> Array:
-    """Return the rotations (n, 3, 3) about vectors (n, 3), rad (Rodrigues)."""
+def _turning(vector: Array) -> Array:
+    """Return rotations less the identity (n, 3, 3) about vectors (n, 3), rad (Rodrigues)."""
     angle = np.linalg.norm(vector, axis=-1)[:, None, None]
     x, y, z = vector.T
     o = np.zeros_like(x)
     cross = np.stack([np.stack([o, -z, y], -1), np.stack([z, o, -x], -1), np.stack([-y, x, o], -1)], -2)
     first = np.sinc(angle / np.pi)
     second = 0.5 * np.sinc(angle / (2.0 * np.pi)) ** 2
-    return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
+    return np.asarray(first * cross + second * (cross @ cross))

@@ -13,29 +13,42 @@ from dataclasses import fields, replace
 import numpy as np
 
 from trochoid.fem import complementarity as lcp
-from trochoid.fem.cone_assembly import RIGID_ROLLER, ConeAssembly, ConeContact, Roller
+from trochoid.fem.cone_assembly import ConeAssembly, ConeContact
 from trochoid.fem.cone_elastic import Elastic, beside, elastic_at, updated, whole, yielded
 from trochoid.fem.cone_law import FAINT
 from trochoid.fem.cone_pair import ConeState
+from trochoid.fem.pivoting import PIVOTS
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
 
-__all__ = ["RIGID_ROLLER", "ConeAssembly", "ConeContact", "Roller", "solve_cone"]
-
-STEPS = 60
-SETTLED = 1e-9  # of the largest force
-ROUNDING = 1e-14  # of the coordinates: gaps are not known better
+STEPS, LONGEST = 60, 300
+NEARLY = 1e-2  # of the largest force: what settles slowly is below that after STEPS
+SETTLED = 1e-10  # of the largest force
+ROUNDING = 1e-14  # of the gaps: they are not known better
 MOVED = 1e-6  # rad or m, over which arms and laws are differenced
 
 
-def solve_cone(assembly: ConeAssembly, at_once: int = 16) -> ConeContact:
-    """Solve all positions, the rows of `assembly.load`.  Raises NotConverged with the row of the position."""
+def solve_cone(
+    assembly: ConeAssembly,
+    at_once: int = 16,
+    steps: int = STEPS,
+    pivots: int = PIVOTS,
+    start: ConeContact | None = None,
+) -> ConeContact:
+    """Solve all positions, the rows of `assembly.load`; forces must have nearly settled after so many steps.
+
+    A step takes so many pivots at the most.  Steps are those of Newton but for arms, which follow the motion: near the
+    largest load that is carried, where they decide, they settle slowly.  `start` holds motions and forces of the same
+    positions under a load not far off, where there are such.
+    Raises NotConverged with the row of the position.
+    """
     parts = []
     for first in range(0, len(assembly.load), at_once):
         rows = np.arange(first, min(first + at_once, len(assembly.load)))
         some = replace(assembly, pair=assembly.pair.rows(rows), load=assembly.load[rows])
         try:
-            parts.append(_solved(some))
+            begin = None if start is None else (start.motion[rows], start.force[rows])
+            parts.append(_solved(some, steps, pivots, begin))
         except NotConverged as fault:
             raise NotConverged(str(fault), None if fault.row is None else first + fault.row) from fault
     return _joined(parts) if len(parts) > 1 else parts[0]
@@ -53,22 +66,24 @@ def _joined(parts: Sequence[ConeContact]) -> ConeContact:
     return replace(first, **contact, state=ConeState(**state), steps=max(p.steps for p in parts))
 
 
-def _solved(assembly: ConeAssembly) -> ConeContact:
-    motion = np.zeros_like(assembly.load)
+def _solved(
+    assembly: ConeAssembly, steps: int, pivots: int, begin: tuple[Array, Array] | None
+) -> ConeContact:
+    motion = np.zeros_like(assembly.load) if begin is None else begin[0]
     state = assembly.pair.at(motion)
     elastic = elastic_at(assembly, state)
-    force = _guess(assembly, state)
+    force = _guess(assembly, state) if begin is None else begin[1]
     solution: lcp.Solution | None = None
     change = np.full(len(motion), np.inf)
-    for step in range(1, STEPS + 1):
+    for step in range(1, LONGEST + 1):
         problem = _problem(assembly, elastic, state, force, motion)
         solution = lcp.solve_all(
-            problem, None if solution is None else replace(solution, motion=0.0 * motion)
+            problem, None if solution is None else replace(solution, motion=0.0 * motion), pivots
         )
         new = solution.forces[0]
         size = np.maximum(new.max(axis=(1, 2), initial=0.0), 1e-300)
         change = np.abs(new - force).max(axis=(1, 2), initial=0.0) / size
-        noise = _noise(assembly, problem)
+        noise = _noise(problem, state)
         _fail_if_drowned(assembly, state, new, noise)
         new = np.where((size > noise)[:, None, None], new, 0.0)  # less is rounding: nothing touches
         change = np.where(new.any(axis=(1, 2)), change - noise / size, 0.0)
@@ -76,19 +91,21 @@ def _solved(assembly: ConeAssembly) -> ConeContact:
         state = assembly.pair.at(motion)
         if np.all(change < SETTLED):
             return _contact(assembly, elastic, state, force, motion, step)
+        if step >= steps and np.any(change > NEARLY):
+            break
         elastic = updated(assembly, elastic, state, force)
     worst = int(np.argmax(change))
     raise NotConverged(
-        f"contact of rollers and rim: forces still change by {change[worst]:.1e} of the largest after {STEPS} steps; "
+        f"contact of rollers and rim: forces still change by {change[worst]:.1e} of the largest after {step} steps; "
         "reduce the clearance or the load, or give the free motions springs",
         worst,
     )
 
 
-def _noise(assembly: ConeAssembly, problem: lcp.Problem) -> Array:
-    """Return the force (n,) in N by which rounding of the coordinates may press a slice."""
+def _noise(problem: lcp.Problem, state: ConeState) -> Array:
+    """Return the force (n,) in N by which rounding of the gaps may press a slice."""
     least = problem.groups[0].diagonal.min(axis=(1, 2))
-    return np.asarray(ROUNDING * assembly.rim.slices.outer[-1] / least)
+    return np.asarray(ROUNDING * np.abs(state.gap).max(axis=(1, 2)) / least)
 
 
 def _fail_if_drowned(assembly: ConeAssembly, state: ConeState, force: Array, noise: Array) -> None:

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from trochoid.fem.cone_body import cone_body
-from trochoid.fem.cone_flank import SPREAD, flank
+from trochoid.fem.cone_body import ConeBody, cone_body
+from trochoid.fem.cone_flank import SPREAD, Flank, flank
 from trochoid.fem.cone_layers import layers
 from trochoid.fem.cone_ring import full_rim, row_of_teeth
-from trochoid.fem.cone_sector import DEGREE, condense, station_loads
+from trochoid.fem.cone_sector import DEGREE, Sector, condense, station_loads
 from trochoid.fem.cone_table import RimCompliance, rim_compliance
 from trochoid.fem.material import Material
 from trochoid.geometry.quality import Quality
 from trochoid.geometry.sphere_mesh import mesh_sphere, sphere_quality
-from trochoid.geometry.sphere_outline import RimShape, sector_outline
+from trochoid.geometry.sphere_outline import sector_outline
+from trochoid.geometry.sphere_rim import RimShape
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,8 @@ class RimSize:
 class RimMesh:
     """How fine: `facets` on each tooth, `layers` between the spheres, `growth` of elements away from the flank.
 
-    Contacts have slices of a layer's `parts`: several where rollers are crowned so much that they touch over little.
+    Contacts have slices of a layer's `parts`: several where rollers are crowned so much that they touch over little,
+    and slices as short as `spot` (m; 0: none) about the middle of the rollers, where a slight load is all they carry.
     """
 
     facets: int = 28
@@ -44,21 +46,31 @@ class RimMesh:
     parts: int = 1
     degree: int = DEGREE
     spread: float = SPREAD
+    spot: float = 0.0
 
     @property
     def coarser(self) -> RimMesh:
         """The mesh whose difference from this one estimates the error."""
-        return replace(self, facets=max(6, self.facets // 2), layers=max(3, self.layers // 2))
+        return replace(
+            self, facets=max(6, self.facets // 2), layers=max(3, self.layers // 2), spot=2.0 * self.spot
+        )
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Rim:
-    """A rim that was pressed: its compliance, the degrees of freedom and the mesh quality of one tooth."""
+    """A rim that was pressed: its compliance, the degrees of freedom and the mesh quality of one tooth.
+
+    `body`, `side` and `sector` are that tooth's elements, pressed side and superelement, `degree` that of its cuts.
+    """
 
     compliance: RimCompliance
     shape: RimShape
     dofs: int
     quality: Quality
+    body: ConeBody
+    side: Flank
+    sector: Sector
+    degree: int
 
 
 def press_rim(
@@ -76,5 +88,5 @@ def press_rim(
     sector = condense(body, loads, shape.pitch, mesh.degree, solver)
     teeth = shape.tooth.lobes if size.teeth is None else size.teeth
     coupling = full_rim(sector, teeth) if size.teeth is None else row_of_teeth(sector, teeth)
-    compliance = rim_compliance(body, side, coupling, loads.slices, mesh.parts)
-    return Rim(compliance, shape, body.size, sphere_quality(plane))
+    compliance = rim_compliance(body, side, coupling, loads.slices, mesh.parts, mesh.spot)
+    return Rim(compliance, shape, body.size, sphere_quality(plane), body, side, sector, mesh.degree)

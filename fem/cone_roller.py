@@ -23,11 +23,16 @@ def closed_form_roller(material: Material) -> Roller:
 
 
 def press_roller(
-    layers: Slices, angles: tuple[float, float], material: Material, facets: int = 24, parts: int = 1
+    layers: Slices,
+    angles: tuple[float, float],
+    material: Material,
+    facets: int = 24,
+    parts: int = 1,
+    spot: float = 0.0,
 ) -> Roller:
     """Return a roller of half angle angles[0] on a pin of half angle angles[1] (rad), as long as the layers together.
 
-    The pin is rigid.  Contacts have slices of a layer's `parts`, as the rim's.
+    The pin is rigid.  Contacts have slices of a layer's `parts` and of `spot` (m), as the rim's.
     """
     angle, bore = angles
     radial = Layers(np.append(layers.inner, layers.outer[-1]))
@@ -42,6 +47,6 @@ def press_roller(
     own, _ = read(factored(body, ~body.held), loads[inner], csc_matrix((len(inner), 0)))
     kernel = material.plane("strain").kernel
     ends, width = (float(layers.inner[0]), float(layers.outer[-1])), np.array([half])
-    fine = finer(layers, parts)
+    fine = finer(layers, parts, spot)
     own = sharpened(own[None], width, layers, fine, ends, kernel)[0]
     return Roller(kernel, material.poissons_ratio, own, ends, half * fine.middle)

@@ -87,7 +87,7 @@ def condense(
     body: ConeBody, loads: Loads, pitch: float, degree: int = DEGREE, solver: str | None = None
 ) -> Sector:
     """Eliminate the inside of a sector whose right cut is its left one turned by `pitch` (rad) about z."""
-    left, right = _cut(body, "left", np.eye(3), degree), _cut(body, "right", rotation(2, pitch), degree)
+    left, right = cut_displacements(body, pitch, degree)
     on_cut = np.zeros(body.size, dtype=bool)
     on_cut[body.dofs(np.concatenate([body.mesh.nodes(n) for n in ("left", "right")])).ravel()] = True
     trace = hstack([left, right], format="csc")
@@ -102,6 +102,11 @@ def condense(
     stiffness = (trace.T @ across).toarray() - whole[:t, :t]
     pull = (force.T @ trace).toarray() - whole[t:, :t]
     return Sector(loads, whole[t:, t:], 0.5 * (stiffness + stiffness.T), pull)
+
+
+def cut_displacements(body: ConeBody, pitch: float, degree: int) -> tuple[csc_matrix, csc_matrix]:
+    """Return the displacements (all, t) that the left cut may take, and those of the right one, turned by `pitch`."""
+    return _cut(body, "left", np.eye(3), degree), _cut(body, "right", rotation(2, pitch), degree)
 
 
 def _cut(body: ConeBody, name: str, turned: Array, degree: int) -> csc_matrix:

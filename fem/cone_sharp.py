@@ -22,6 +22,7 @@ ACROSS = 0.5 * math.exp(-0.25)
 SHARP = (
     0.02  # of the blunt width: a line beside its slices; from it to the contact's own width only ln b changes
 )
+SLENDER = 0.25  # of the shortest slice, at the most
 
 
 def sharpened(
@@ -34,7 +35,7 @@ def sharpened(
     """
     turn = interpolation(layers, fine)
     smooth = own - line_load(half_width, layers, ends, kernel)
-    sharp = SHARP * half_width
+    sharp = np.minimum(SHARP * half_width, SLENDER * float(fine.length.min()) / fine.middle[-1])
     s = turn @ smooth @ turn.T + line_load(sharp, fine, ends, kernel)
     number = np.arange(len(fine.middle))
     s[..., number, number] -= kernel * (np.log(2.0 / (sharp[:, None] * fine.middle)) + 0.25) / fine.length

@@ -8,6 +8,8 @@ import numpy as np
 
 from trochoid.kinematics.types import Array
 
+GROWTH = 0.25  # of the distance from the middle: lengths of slices about a small spot
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Slices:
@@ -25,12 +27,34 @@ def between(breaks: Array) -> Slices:
     return Slices(0.5 * (inner + outer), outer - inner, inner, outer)
 
 
-def finer(slices: Slices, parts: int) -> Slices:
-    """Cut every slice into equal parts."""
-    if parts == 1:
+def finer(slices: Slices, parts: int, least: float = 0.0) -> Slices:
+    """Cut every slice into equal parts, and about the middle of them all into parts of the length `least` (m).
+
+    From there they grow by GROWTH times the distance; 0 where equal parts are fine enough.
+    """
+    if parts == 1 and least == 0.0:
         return slices
     step = slices.inner[:, None] + slices.length[:, None] * np.arange(parts) / parts
-    return between(np.append(step.ravel(), slices.outer[-1]))
+    breaks = np.append(step.ravel(), slices.outer[-1])
+    if least > 0.0:
+        breaks = _graded(breaks, least)
+    return between(breaks)
+
+
+def _graded(breaks: Array, least: float) -> Array:
+    """Return breaks no farther apart than `least` in the middle, GROWTH times the distance from it, and as before."""
+    middle, half = 0.5 * (breaks[0] + breaks[-1]), 0.5 * (breaks[-1] - breaks[0])
+    away = np.concatenate([[0.0], np.geomspace(0.1 * least, half, 2000)])
+    size = least + GROWTH * away
+
+    def side(sign: float) -> Array:
+        given = np.interp(middle + sign * away, 0.5 * (breaks[1:] + breaks[:-1]), np.diff(breaks))
+        each = 1.0 / np.minimum(size, given)
+        count = np.concatenate([[0.0], np.cumsum(0.5 * (each[1:] + each[:-1]) * np.diff(away))])
+        number = round(float(count[-1]) + 0.5)
+        return np.asarray(np.interp(np.arange(1, number) / number * count[-1], count, away))
+
+    return np.concatenate([breaks[:1], middle - side(-1.0)[::-1], [middle], middle + side(1.0), breaks[-1:]])
 
 
 def interpolation(slices: Slices, fine: Slices) -> Array:

@@ -129,12 +129,15 @@ class RimCompliance:
 
 
 def rim_compliance(
-    body: ConeBody, side: Flank, coupling: Coupling, slices: IntArray, parts: int = 1
+    body: ConeBody, side: Flank, coupling: Coupling, slices: IntArray, parts: int = 1, spot: float = 0.0
 ) -> RimCompliance:
-    """Return the compliance of a rim; `slices` are the layers that contacts cover, each in so many `parts`."""
+    """Return the compliance of a rim; `slices` are the layers that contacts cover, each in so many `parts`.
+
+    About the middle of their reach parts are no longer than `spot` (m), where it is not 0.
+    """
     first, last = int(slices[0]), int(slices[-1])
     coarse = between(body.radial.breaks[first : last + 2])
-    fine = finer(coarse, parts)
+    fine = finer(coarse, parts, spot)
     k, s = coupling.stations, coupling.slices
     table = coupling.table.reshape(len(coupling.table), k, s, k, s)
     share = coarse.length / coarse.length.sum()

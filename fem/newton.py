@@ -19,6 +19,10 @@ FLOOR = 1e-9  # of the largest force: laws are linearised there at the least
 ROUNDING = 1e-15  # of the coordinates: gaps are not known better
 FAINT = 1e-12  # of the largest force: less is rounding
 UNSTABLE = 1e-9  # of a motion's stiffness: less is rounding
+AWAY = (
+    "contact: members have moved so far that surfaces no longer face each other; what holds them is too soft for the "
+    "load"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,10 +108,7 @@ def turning(assembly: Assembly, point: Point) -> Array:
 def convex(stiffness: Array) -> Array:
     """Return the positive part of symmetric matrices (n, k, k): with it each step stays a convex problem."""
     if not np.isfinite(stiffness).all():
-        raise NotConverged(
-            "contact: members have moved so far that surfaces no longer face each other; what holds them is too soft "
-            "for the load"
-        )
+        raise NotConverged(AWAY)
     own = np.einsum("nkk->nk", stiffness)
     felt = own != 0.0  # the other motions stay free, without rounding
     both = felt[:, :, None] & felt[:, None]

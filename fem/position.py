@@ -15,7 +15,7 @@ import numpy as np
 from trochoid.fem import complementarity as lcp
 from trochoid.fem.assembly import Assembly, Contact, Family, Touch
 from trochoid.fem.coupling import ElasticBody, coupling
-from trochoid.fem.newton import ROUNDING, Point, guess, linearised, result, rounding, stepped, turning
+from trochoid.fem.newton import AWAY, ROUNDING, Point, guess, linearised, result, rounding, stepped, turning
 from trochoid.fem.pair import State
 from trochoid.fem.pressure import SETTLED, resolved
 from trochoid.fem.rows import joined, taken
@@ -62,7 +62,7 @@ def solve_positions(assembly: Assembly, resolve: bool = False, start: Contact | 
                 done.append((work.rows[rows], _finished(work, found, rows, step, resolve)))
         except NotConverged as fault:
             row = None if fault.row is None else int(work.rows[fault.row])
-            raise NotConverged(str(fault), row) from fault
+            raise NotConverged(_reason(work, fault), row) from fault
         if found.settled.all():
             return joined(done)
         work = _moved(work, found, np.flatnonzero(~found.settled))
@@ -97,6 +97,18 @@ class _Found:
     settled: BoolArray
 
 
+def _reason(work: _Work, fault: NotConverged) -> str:
+    """Return why a step failed: what it says itself, unless members had left each other before."""
+    return AWAY if fault.row is not None and _away(work.point)[fault.row] else str(fault)
+
+
+def _away(point: Point) -> BoolArray:
+    """Return (n,) whether contacts have moved by more than the members are large."""
+    moved = np.abs(np.einsum("nck,nk->nc", point.arms, point.motion)).max(axis=1, initial=0.0)
+    size = np.max([np.abs(s.point).max(axis=(1, 2), initial=s.size) for s in point.states], axis=0)
+    return np.asarray(~(moved <= size))
+
+
 def _begun(assembly: Assembly, start: Contact | None) -> _Work:
     motion = np.zeros_like(assembly.load) if start is None else start.motion
     at = motion if assembly.follow else np.zeros_like(motion)
@@ -115,8 +127,12 @@ def _begun(assembly: Assembly, start: Contact | None) -> _Work:
 
 
 def _newton(work: _Work) -> _Found:
-    problem = linearised(work.assembly, work.point, work.coupling)
-    solution = stepped(problem, turning(work.assembly, work.point), work.solution)
+    try:
+        with np.errstate(invalid="ignore"):  # no radius of curvature where members are far out of place
+            problem = linearised(work.assembly, work.point, work.coupling)
+            solution = stepped(problem, turning(work.assembly, work.point), work.solution)
+    except np.linalg.LinAlgError as fault:
+        raise NotConverged(AWAY) from fault
     new = [f[..., 0] for f in solution.forces]
     size = np.max([f.max(axis=1, initial=0.0) for f in new], axis=0)
     changes = [np.abs(a - b).max(axis=1, initial=0.0) for a, b in zip(new, work.point.forces, strict=True)]

@@ -38,6 +38,21 @@ def force_size(scale: Scale, problem: Problem, forces: Sequence[Array]) -> Array
     return np.asarray(np.maximum(scale.force, (carried * scale.motion).max(axis=1, initial=0.0)))
 
 
+def force_rounding(problem: Problem, step: Step) -> Array:
+    """Return what rounding alone may leave of the equations of the motions, (n, k) in N: m ε of the sum of all m terms'
+    sizes, as of any sum of products. Stiff springs between members that move together have large terms that cancel.
+    """
+    terms = np.abs(problem.load) + (np.abs(problem.springs) @ np.abs(step.motion)[..., None])[..., 0]
+    count = 1 + problem.load.shape[1]
+    for group, force in zip(problem.groups, step.forces, strict=True):
+        pressed = np.abs(force)
+        if group.arms.shape[2] == 1:
+            pressed = pressed.sum(axis=2, keepdims=True)
+        terms = terms + np.einsum("ncmk,ncm->nk", np.abs(group.arms), pressed)
+        count += force.shape[1] * force.shape[2]
+    return np.asarray(count * np.finfo(np.float64).eps * terms)
+
+
 def gap_size(scale: Scale, problem: Problem, step: Step) -> Array:
     """Return the length (n,) that w is small against: the largest |g − R a|."""
     largest = scale.gap

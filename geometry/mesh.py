@@ -55,9 +55,9 @@ def mesh_outline(outline: Outline, growth: float | Callable[[Array], Array] = 1.
     rate = growth(np.concatenate(corners)) if callable(growth) else growth
     points, triangles = triangulate(corners, rate - 1.0)
     nodes = _boundary_nodes(outline.loops, ends)
-    triangles = _without_ears(points, triangles, np.concatenate([n[:2] for n in nodes.values()], axis=1))
+    triangles = without_ears(points, triangles, np.concatenate([n[:2] for n in nodes.values()], axis=1))
     size = len(points)
-    points, triangles, pairs = _raised(points, triangles)
+    points, triangles, pairs = with_middles(points, triangles)
     edges: dict[str, IntArray] = {}
     parameters: dict[str, Array] = {}
     for loop in outline.loops:
@@ -83,19 +83,19 @@ def _boundary_nodes(loops: tuple[Loop, ...], ends: Mapping[str, Array]) -> dict[
     return nodes
 
 
-def _without_ears(points: Array, triangles: IntArray, facets: IntArray) -> IntArray:
+def without_ears(points: Array, triangles: IntArray, facets: IntArray) -> IntArray:
     """Swap the inner edge of each triangle with two facets: on a smooth boundary its corner would be flat."""
     size = len(points)
     triangles = triangles.copy()
-    on_boundary = np.sort(_keys(facets[0], facets[1], size))
-    keys = np.stack([_keys(triangles[a], triangles[b], size) for a, b in _EDGES])
+    on_boundary = np.sort(edge_keys(facets[0], facets[1], size))
+    keys = np.stack([edge_keys(triangles[a], triangles[b], size) for a, b in _EDGES])
     count = np.isin(keys, on_boundary).sum(axis=0)
     for ear in np.flatnonzero(count == 2).tolist():
         inner = int(np.flatnonzero(~np.isin(keys[:, ear], on_boundary))[0])
         neighbours = np.flatnonzero((keys == keys[inner, ear]).any(axis=0))
         other = int(neighbours[neighbours != ear][0])
         _swap(triangles, ear, other)
-        keys = np.stack([_keys(triangles[a], triangles[b], size) for a, b in _EDGES])
+        keys = np.stack([edge_keys(triangles[a], triangles[b], size) for a, b in _EDGES])
     return triangles
 
 
@@ -108,15 +108,16 @@ def _swap(triangles: IntArray, ear: int, other: int) -> None:
     triangles[:, ear], triangles[:, other] = (tip, a, far), (tip, far, b)
 
 
-def _keys(a: IntArray, b: IntArray, size: int) -> IntArray:
+def edge_keys(a: IntArray, b: IntArray, size: int) -> IntArray:
+    """Return one number for each edge between nodes a and b (…) of `size`, whichever comes first."""
     keys: IntArray = np.minimum(a, b) * size + np.maximum(a, b)
     return keys
 
 
-def _raised(points: Array, triangles: IntArray) -> tuple[Array, IntArray, IntArray]:
+def with_middles(points: Array, triangles: IntArray) -> tuple[Array, IntArray, IntArray]:
     """Add straight mid-side nodes; the third value holds the sorted edge keys in the order of these nodes."""
     size = len(points)
-    keys = np.stack([_keys(triangles[a], triangles[b], size) for a, b in _EDGES])
+    keys = np.stack([edge_keys(triangles[a], triangles[b], size) for a, b in _EDGES])
     pairs, index = np.unique(keys, return_inverse=True)
     middle = 0.5 * (points[pairs // size] + points[pairs % size])
     raised = np.concatenate((triangles, size + index.reshape(keys.shape)))
@@ -128,7 +129,7 @@ def _curved(loop: Loop, ends: Array, nodes: IntArray, pairs: IntArray, size: int
     arc = ArcLength(loop.curve)
     s = arc.length(ends)
     middle = arc.parameter(0.5 * (s[1:] + s[:-1]))
-    edge = np.stack((*nodes, size + np.searchsorted(pairs, _keys(nodes[0], nodes[1], size))))
+    edge = np.stack((*nodes, size + np.searchsorted(pairs, edge_keys(nodes[0], nodes[1], size))))
     return edge, np.stack((ends[:-1], ends[1:], middle))
 
 

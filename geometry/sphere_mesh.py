@@ -8,13 +8,14 @@ from types import MappingProxyType
 
 import numpy as np
 
-from trochoid.geometry.mesh import _keys, _raised, _without_ears
+from trochoid.geometry.mesh import edge_keys, with_middles, without_ears
 from trochoid.geometry.quality import Quality
 from trochoid.geometry.sphere_outline import SphereOutline
 from trochoid.geometry.triangulate import triangulate
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, IntArray
 
+THIN = 3.0  # lengths of a facet over the distance to the hub: with 6 elements fold
 # reference coordinates at which the Jacobian is looked at: nodes and the middle
 _PLACES = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5], [1 / 3, 1 / 3]])
 
@@ -55,15 +56,15 @@ def mesh_sphere(outline: SphereOutline, growth: float = 1.3) -> SphereMesh:
             index = first + np.arange(count + 1) - start
             edges[side.name] = np.stack([index[:-1], index[1:]]) % len(corner) + start
             first += count
-    triangles = _without_ears(chart, triangles, np.concatenate(list(edges.values()), axis=1))
+    triangles = without_ears(chart, triangles, np.concatenate(list(edges.values()), axis=1))
     size = len(chart)
-    chart, triangles, pairs = _raised(chart, triangles)
+    chart, triangles, pairs = with_middles(chart, triangles)
     points = outline.from_chart(chart)
     parameters: dict[str, Array] = {}
     for loop in outline.loops:
         for side in loop:
             ends = edges[side.name]
-            middle = size + np.searchsorted(pairs, _keys(ends[0], ends[1], size))
+            middle = size + np.searchsorted(pairs, edge_keys(ends[0], ends[1], size))
             points[middle], points[ends[0]] = side.middles, side.ends[:-1]
             edges[side.name], parameters[side.name] = _forward(ends, middle, side.parameters)
     mesh = SphereMesh(points, triangles, MappingProxyType(edges), MappingProxyType(parameters))
@@ -112,5 +113,21 @@ def _fail_if_folded(mesh: SphereMesh) -> None:
     if folded.size:
         raise TrochoidError(
             f"{folded.size} curved elements fold, first at {mesh.points[mesh.triangles[0, folded[0]]]} on the unit "
-            "sphere; give the flank more facets"
+            f"sphere; {_remedy(mesh)}"
         )
+
+
+def _remedy(mesh: SphereMesh) -> str:
+    """Say what takes folds away: facets no longer than THIN times the distance to the hub, or shorter ones."""
+    if not {"flank", "hub"} <= set(mesh.edges):
+        return "give the flank more facets"
+    flank, hub = (mesh.points[mesh.edges[name]] for name in ("flank", "hub"))
+    away = np.linalg.norm(flank.reshape(-1, 1, 3) - hub.reshape(-1, 3), axis=-1).min()
+    longest = np.linalg.norm(flank[1] - flank[0], axis=-1).max()
+    if longest < THIN * away:
+        return "give the flank more facets"
+    return (
+        f"the body is only {np.degrees(away):.3g}° thin between the flank and the hub that holds it, and the flank's "
+        f"facets are {np.degrees(longest):.3g}° long: hold it at least {np.degrees(longest / THIN):.3g}° away from the "
+        f"flank, or give the flank {int(np.ceil(flank.shape[1] * longest / (THIN * away)))} facets"
+    )

@@ -19,18 +19,6 @@ from trochoid.kinematics.spherical import rotation
 from trochoid.kinematics.spherical_curve import SmallCircle, SphericalCurve
 from trochoid.kinematics.types import Array
 
-__all__ = [
-    "RimShape",
-    "Side",
-    "SphereOutline",
-    "bent_breaks",
-    "beyond_edge",
-    "curve_side",
-    "outline_of_breaks",
-    "roller_outline",
-    "sector_outline",
-]
-
 BENT = 0.6  # of the facets' density on a flank: curvature
 EDGE = 0.3  # of the facets' length: the last one at an edge
 

@@ -7,7 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from trochoid.geometry.sphere_outline import RimShape, bent_breaks
+from trochoid.geometry.sphere_outline import bent_breaks
+from trochoid.geometry.sphere_rim import RimShape
 from trochoid.kinematics.curve import ArcLength
 from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.types import Array

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
 
+MOST_PANELS = 4096  # more are halved for rounding's sake: flat spherical curves have speeds of few digits
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(16)
 _COARSE_X, _COARSE_W = np.polynomial.legendre.leggauss(11)
 
@@ -215,7 +216,7 @@ def _panels(curve: Curve) -> Array:
         fine = _piece(curve, low, high)
         error = np.abs(fine - _piece(curve, low, high, _COARSE_X, _COARSE_W))
         bad = error > np.maximum(1e-13 * fine, 1e-15 * fine.sum())
-        if not bad.any():
+        if not bad.any() or knots.size + bad.sum() > MOST_PANELS:
             break
         knots = np.sort(np.concatenate((knots, 0.5 * (low + high)[bad])))
     return knots

@@ -147,6 +147,19 @@ class SphereTooth:
         t = self.crank_angle(p)
         return self._carried(t, self._pin(t))
 
+    def carrier_axis(self, crank_angle: npt.ArrayLike) -> Array:
+        """Axis of the member with the pins in the frame of the flank, unit vectors (..., 3), at crank angles (...)."""
+        t = np.asarray(crank_angle, dtype=np.float64)
+        axis = np.array([0.0, 0.0, 1.0])
+        if self.pins_on == "satellite":
+            axis = turn(rotation(1, self.nutation), axis)
+        return self._carried(t, axis)
+
+    def path_speed(self, p: npt.ArrayLike) -> Array:
+        """|du/dp| = z2 |W×u| of the pin's axis along its path, rad."""
+        speed: Array = self.satellite_teeth * self._trihedron(p)[3]
+        return speed
+
     def center_path_curvature(self, p: npt.ArrayLike) -> Array:
         """Geodesic curvature κ of the pin path, positive towards N, sources §5."""
         u, W = self._pin(self.crank_angle(p)), self._rotation_velocity()

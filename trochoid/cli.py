@@ -201,14 +201,56 @@ def accuracy(
 
 @commands.command()
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.option("--film", metavar="NAME", help="Which film; by default the first. A wrong name lists them.")
+@click.option("--frame", type=int, metavar="N", help="Frame to begin with, from 0.")
+@click.option(
+    "--at", type=float, metavar="VALUE", help="Begin with the frame nearest this value, angles in deg."
+)
+@click.option("--show", metavar="DATA", help="Colour bodies by this point data, in place of the film's own.")
 @click.option(
     "--screenshot", type=click.Path(path_type=Path), metavar="FILE", help="Save a picture and open no window."
 )
-def view(folder: Path, screenshot: Path | None) -> None:
-    """Show the 3-D results of a run in DIR."""
-    from trochoid.view import view as show
+@click.option(
+    "--movie", type=click.Path(path_type=Path), metavar="FILE.gif", help="Save all frames as an animation."
+)
+def view(
+    folder: Path,
+    film: str | None,
+    frame: int | None,
+    at: float | None,
+    show: str | None,
+    screenshot: Path | None,
+    movie: Path | None,
+) -> None:
+    """Show the films of a run in DIR: bodies in space, deformed, with stress and pressure.
 
-    show(folder, screenshot)
+    \b
+    trochoid view out/precessional
+    trochoid view out/precessional --at 120 --screenshot picture.png
+    """
+    from trochoid.view import Wanted
+    from trochoid.view import view as open_film
+
+    click.echo(open_film(folder, wanted=Wanted(film, frame, at, show, screenshot, movie)))
+
+
+@commands.command()
+@click.argument("scene")
+@click.option(
+    "--to", "target", type=click.Path(path_type=Path), required=True, metavar="FILE", help="Its ending says what."
+)
+@_SET
+def export(scene: str, target: Path, overrides: tuple[str, ...]) -> None:
+    """Write exact shapes of SCENE for other programs, by the ending of FILE; a wrong one lists those of the kind.
+
+    \b
+    trochoid export scene.toml --to rim.step    solids of a precessional drive or an indexer
+    trochoid export scene.toml --to flank.csv   points of the profiles
+    """
+    from trochoid.export import export as write
+
+    said = write(_load(scene, overrides, None), target)
+    click.echo(f"wrote {target}: {said}")
 
 
 def _folder(scene: str, out: Path | None, as_json: bool) -> Path | None:

@@ -142,8 +142,8 @@ def imbalance(made: Design, contact: Contact, angle: float, classical: bool = Fa
                 moments["output"] += _moment(touch.state.point - hub, push)
     if rows.floating:
         for member, table in (("shaft", made.drive.input_shaft), ("output", made.drive.output_flange)):
-            for z in table.bearing_positions:
-                held = table.bearing_stiffness * rows.rows(member, z)[:2] @ motion
+            for z, stiffness in zip(table.bearing_positions, made.supports[member], strict=True):
+                held = stiffness * rows.rows(member, z)[:2] @ motion
                 forces[member] -= held
                 tilts[member] -= z * held
     else:

@@ -20,7 +20,8 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "planetary.toml"
 LEAN = (
     r"^(x_planet|x_ring|roller_diameter|bore_radius|outer_radius|position_errors|tip_relief|held"
     r"|bearing_stiffness|torsional_stiffness|misalignment|crown) = .*\n|^\[drive\.lead.*\n"
-    r'|^    "(natural_frequencies|vibration_velocity|vibration_zone)",\n'
+    r"|^\[drive\.planet\.bearing\]\n(?:\w+ = .*\n)+"
+    r'|^    "(bearing_stiffness|bearing_life|natural_frequencies|vibration_velocity|vibration_zone)",\n'
 )
 SMALL = {"z_sun": 18, "z_planet": 18, "z_ring": 54, "planets": 3, "center_distance": 37, "x_sun": 0.25}
 PHASED = SMALL | {"z_sun": 19, "z_planet": 17, "z_ring": 53}

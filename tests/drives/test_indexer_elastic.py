@@ -20,7 +20,7 @@ SHAFT = ("drive.output_shaft.inertia=0.02", "drive.output_shaft.stiffness=20000"
 
 
 def elastic(*overrides: str | Override) -> Run:
-    return run_of(FREE, ELASTIC, "drive.wheel.thickness=12", *overrides)
+    return run_of(FREE, ELASTIC, 'accuracy.model="rigid_wheel"', "drive.wheel.thickness=12", *overrides)
 
 
 @pytest.mark.exact
@@ -140,6 +140,7 @@ def test_play_knocks() -> None:
 def test_nothing_presses() -> None:
     """Zero torque without inertia: no pressure, no stiffness, and no fault."""
     run = run_of(FREE, 'effects=[{type="elastic_contact"}]', "operation.output_torque=0")
+    assert run.stages.bodies.fine is None  # nothing is meshed for nothing
     assert number(run.contact_pressure_max, "indexer") == 0.0
     assert run.mesh_stiffness.parts["indexer"].value == "unloaded"  # type: ignore[index, union-attr]
     assert run.torsional_stiffness.parts["indexer"].value == "unloaded"  # type: ignore[index, union-attr]

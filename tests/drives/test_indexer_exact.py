@@ -196,7 +196,7 @@ def test_outcome_is_whole() -> None:
         1 + 1e-12
     )
     assert made.plots[0].title == "Mechanism on its sphere"
-    assert len(made.plots) == 5
+    assert len(made.plots) == 8
     assert made.drawing is not None
     assert "solution_verdict" in data
 

@@ -10,9 +10,12 @@ import pytest
 
 from tests.drives.khv_cases import EVERY_PIN_ALIKE, scene, without
 from trochoid.clock import Clock
+from trochoid.drives.khv.eccentric import momenta
 from trochoid.drives.khv.modes import lines, natural_modes, near, spoken
+from trochoid.drives.khv.reactions import reactions
 from trochoid.drives.khv.stages import Stages
 from trochoid.drives.modes import Mode
+from trochoid.kinematics.errors import NotConverged
 from trochoid.run import Run
 
 FEW = ("ask.positions=8", "accuracy.facets_per_lobe=6", 'accuracy.model="level0"')
@@ -124,3 +127,65 @@ def test_lines_and_what_is_near() -> None:
     modes = (Mode(100.0, {"disc 1 turning": 1.0}), Mode(510.0, {"disc 2 turning": 1.0}))
     assert near(stages.design, modes) == ["ring pins pass, 20 per turn (500 Hz) near mode 2 (510 Hz)"]
     assert modes[0].words == "disc 1 turning 100 %"
+
+
+@pytest.mark.property
+def test_the_named_resonance_is_a_mode_of_the_drive(elastic: Run) -> None:
+    """Reactions are found where modes are, in the eccentric's frame: what they name is listed, but for its turning."""
+    stages: Stages = elastic.stages
+    found = stages.reactions.fine
+    assert found.response is not None
+    assert found.response.resonance is not None
+    named, turn = found.response.resonance.natural_frequency, stages.design.crank_speed / (2.0 * np.pi)
+    heard = np.array([mode.frequency for mode in stages.modes.fine.modes])
+    off = np.abs(heard[:, None] + np.array([-turn, 0.0, turn]) - named)
+    assert off.min() < 1e-6 * named
+    assert found.response.stiffness_variation == pytest.approx(stages.modes.fine.stiffness_variation)
+
+
+@pytest.mark.property
+def test_work_on_the_elastic_motion_is_what_damping_takes(
+    elastic: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Energy along axes that stand still; with a wrong momentum of the shaft it does not close."""
+    stages: Stages = elastic.stages
+    made = stages.reactions.fine
+    assert made.response is not None
+    assert made.response.loss > 0.0
+    assert made.work < 1e-12
+    names = {check.name for check in elastic.outcome.checks if check.ok}
+    assert "work on the elastic motion is what damping takes" in names
+    monkeypatch.setattr("trochoid.drives.khv.reactions.momenta", lambda *given: 2.0 * momenta(*given))
+    wrong = reactions(stages.design, stages.contact.fine, stages.masses, 0.02)
+    assert wrong.work > 1e-7
+
+
+@pytest.mark.property
+def test_varying_stiffness_that_excites_itself_is_refused(elastic: Run) -> None:
+    """One disc's springs swing twice a turn about m Ω², undamped: Mathieu's first tongue, refused with advice."""
+    stages: Stages = elastic.stages
+    series, speed = stages.contact.fine, stages.design.crank_speed
+    diagonal = np.array([1e9 if not name.endswith("rotation") else 3e6 for name in series.names])
+    steady = np.tile(np.diag(diagonal), (len(series.angle), 1, 1))
+    swung = steady.copy()
+    for row in (0, 1):
+        swung[:, row, row] = stages.masses.disc.mass * speed**2 * (1.0 + 0.8 * np.cos(2.0 * series.crank))
+    with pytest.raises(NotConverged, match=r"excites itself.*operation.damping_ratio"):
+        reactions(stages.design, replace(series, stiffness=swung), stages.masses, 0.001)
+    assert (
+        reactions(stages.design, replace(series, stiffness=steady), stages.masses, 0.001).response is not None
+    )
+
+
+@pytest.mark.property
+def test_modes_as_films(elastic: Run) -> None:
+    """Six films of discs, shaft, flange and ring; the ring rests."""
+    films = elastic.outcome.films
+    assert [film.name for film in films] == [f"mode_{i}" for i in range(1, 7)]
+    first: Stages = elastic.stages
+    for film, mode in zip(films, first.modes.fine.modes, strict=False):
+        assert f"{mode.frequency:.5g} Hz" in film.title
+        bodies = {body.name: body for body in film.frames[0][1]}
+        assert list(bodies) == ["disc 1", "disc 2", "input shaft", "output flange", "ring"]
+        assert not bodies["ring"].point_data["displacement"].any()
+        assert any(body.point_data["displacement"].any() for body in bodies.values())

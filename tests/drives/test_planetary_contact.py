@@ -21,17 +21,52 @@ from tests.drives.planetary_cases import (
     text,
 )
 from trochoid.drives.planetary import balance
+from trochoid.drives.planetary.contact import Load, angles
 from trochoid.drives.planetary.meshes import meshes
 from trochoid.drives.planetary.picture import drawing
 from trochoid.drives.planetary.roots import roots
+from trochoid.drives.planetary.series import solve_series
 from trochoid.drives.planetary.stages import Solved
 from trochoid.faults import SceneFaults
-from trochoid.kinematics.errors import Infeasible, SceneError
+from trochoid.kinematics.errors import Infeasible, NotConverged, SceneError
 from trochoid.results import Quantity
 from trochoid.run import Run, plan
 from trochoid.scene import NEEDS, Override, read
 
 WRONG_PLACE = "drive.planet.position_errors=[0.02]"
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("torque", "seat"), [(1.0, 2e5), (1e-3, 2e5), (1.0, 2e7), (200.0, 1e9), (200.0, 2e11)]
+)
+def test_planets_without_load_are_no_fault(torque: float, seat: float) -> None:
+    """One planet 20 µm ahead under a stiff sun: with little torque, or in seats up to 1e6 times stiffer, it carries
+    more than its share or all, in equilibrium.
+    """
+    given = (
+        "drive.planet.position_errors=[-0.02]",
+        "drive.sun.bearing_stiffness=1e6",
+        f"drive.planet.bearing_stiffness={seat}",
+    )
+    s = stages_of(*given, effects=(ELASTIC, FLOATING, ERRORS))
+    full, torque = s.load, torque / 200.0
+    load = Load(full.driven * torque, full.sun * torque, 0.0)
+    series = solve_series(s.feasible, s.speeds, level_of(), load, angles(s.feasible, s.speeds, 3), "level0")
+    assert series.imbalance < 1e-9
+    assert balance.load_residual(series) < 1e-9
+    assert (series.shares[:, 0] > 0.6).all()
+    if torque < 0.01:
+        assert not series.sun.force[:, 1:].any()
+        assert series.shares[:, 0] == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.property
+def test_seats_too_soft_for_the_load_are_said_so() -> None:
+    """Planets that would move farther than they are large: NotConverged says that what holds them is too soft."""
+    given = ("operation.output_torque=1e5", "drive.planet.bearing_stiffness=2")
+    with pytest.raises(NotConverged, match="too soft for the load"):
+        series_of(*given, effects=(ELASTIC, FLOATING), positions=2)
 
 
 @pytest.mark.property
@@ -174,11 +209,11 @@ def test_tip_relief_takes_the_edges_pressure_away() -> None:
 
 @pytest.mark.property
 def test_the_stiffness_is_the_slope_of_the_lag() -> None:
-    """Two loads nearby, by differences, at every position."""
-    _, less = series_of("operation.output_torque=199", effects=(ELASTIC, FLOATING))
-    _, more = series_of("operation.output_torque=201", effects=(ELASTIC, FLOATING))
+    """Two loads nearby, by differences, at every position: contacts that wander along the flanks are in it."""
+    _, less = series_of("operation.output_torque=199.98", effects=(ELASTIC, FLOATING))
+    _, more = series_of("operation.output_torque=200.02", effects=(ELASTIC, FLOATING))
     _, at = series_of(effects=(ELASTIC, FLOATING))
-    assert 2.0 / (more.lag - less.lag) == pytest.approx(at.torsional_stiffness, rel=2e-3)
+    assert 0.04 / (more.lag - less.lag) == pytest.approx(at.torsional_stiffness, rel=2e-4)
 
 
 @pytest.mark.independent
@@ -257,8 +292,10 @@ def test_a_run_has_numbers_with_errors_and_checks_that_hold() -> None:
     """Everything through the scene on two levels: every number of the contacts has its error and its model."""
     names = [name for name, needs in NEEDS["planetary"].items() if needs] + ["bearing_loads"]
     asked = Override(("ask", "quantities"), names, "test")
+    needle = 'drive.planet.bearing={kind="needle", bore=14, outside=22, width=16}'
     scene = read(
-        text(SMALL), [asked, "ask.positions=6", "accuracy.facets_per_lobe=12", 'accuracy.model="level0"']
+        text(SMALL),
+        [asked, needle, "ask.positions=6", "accuracy.facets_per_lobe=12", 'accuracy.model="level0"'],
     )
     made = Run(scene).outcome
     assert all(check.ok for check in made.checks)

@@ -19,18 +19,21 @@ from tests.drives.planetary_cases import (
     stages_of,
     text,
 )
+from trochoid.drives.casing import rigid_shaken
 from trochoid.drives.planetary import answers_dynamics, answers_forces
 from trochoid.drives.planetary.answers_contact import load_sharing
 from trochoid.drives.planetary.contact import Layout, centers
 from trochoid.drives.planetary.face import faces
 from trochoid.drives.planetary.headline import not_simulated
 from trochoid.drives.planetary.meshes import matings, meshes
+from trochoid.drives.planetary.mode_shapes import films
 from trochoid.drives.planetary.modes import SetModes, assembled, campbell, natural_modes
 from trochoid.drives.planetary.moving import MAIN, Moving, moving
 from trochoid.drives.planetary.moving_entries import moving_entries
 from trochoid.drives.planetary.reactions import Reactions, reactions
 from trochoid.drives.planetary.stages import Solved, Stages
-from trochoid.drives.planetary.vibration import casing_vibration, whole_pitches
+from trochoid.drives.planetary.vibration import by_place, casing_vibration, on_casing, whole_pitches
+from trochoid.drives.seats import seats_residual
 from trochoid.dynamics.members import disc_member
 from trochoid.dynamics.spectrum import harmonics
 from trochoid.dynamics.supports import Support
@@ -41,6 +44,7 @@ from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
 from trochoid.run import plan
 from trochoid.scene import Override, read
+from trochoid.scene.needs import SEATS_OF
 
 SHAFTS = ("drive.sun.torsional_stiffness=20000", "drive.ring.torsional_stiffness=500000")
 
@@ -253,7 +257,7 @@ CASING = (
 def test_equal_planets_shake_the_casing_by_torque_alone() -> None:
     """v = ω T/(k − J ω²) · arm at each harmonic of the torque that the ring hands on; bearings feel nothing."""
     stages, _, found = moved(CASING, effects=(ELASTIC, FLOATING, INERTIA))
-    shaken = casing_vibration(stages.feasible, stages.speeds, found).elastic
+    shaken = casing_vibration(stages.feasible, stages.speeds, found, rigid_shaken(stages.scene)).elastic
     assert whole_pitches(stages.feasible) == 54
     stiffness = 2.0 * 4e6 * 0.1**2
     for h in (1, 2, 3):
@@ -264,6 +268,19 @@ def test_equal_planets_shake_the_casing_by_torque_alone() -> None:
             abs(omega * torque / (stiffness - 0.2 * omega**2) * 0.05), rel=1e-6
         )
     assert np.abs(shaken.velocity[0, 0]).max() < 1e-6 * np.abs(shaken.velocity[0, 1]).max()
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("fixed", ["ring", "carrier"])
+def test_what_members_put_on_the_casing_is_its_load(fixed: str) -> None:
+    """Sun, ring and carrier at their places sum to the resultant, the fixed one's torque among them."""
+    stages, _, found = moved(f"drive.fixed={fixed}", CASING, effects=(ELASTIC, FLOATING, INERTIA))
+    torque, pitches = found.torque[fixed], whole_pitches(stages.feasible)
+    whole = on_casing(found.force, torque, pitches, 1.0)
+    places = by_place(found.force, (fixed, torque), pitches, 1.0)
+    assert tuple(places) == SEATS_OF["planetary"]
+    assert seats_residual(places, whole) < 1e-12
+    assert np.abs(places[fixed].moment).max() == pytest.approx(np.abs(torque).max(), rel=1e-12)
 
 
 @pytest.mark.exact
@@ -357,3 +374,27 @@ def test_a_varying_stiffness_that_excites_itself_is_refused() -> None:
 def test_what_cannot_be_written(word: str, said: str) -> None:
     with pytest.raises(SceneFaults, match=said):
         stages_of(word)
+
+
+@pytest.mark.property
+def test_modes_as_films() -> None:
+    """Sun, ring, carrier and planets on their circle; each wheel's middle moves as in the mode, all in one scale."""
+    stages, set_ = stages_of(), lumped(3)
+    modes = natural_modes(set_)
+    film = films(stages.feasible, stages.curves, set_, modes)[1]
+    bodies = [frame[1] for frame in film.frames]
+    assert [body.name for body in bodies[0]] == ["sun", "ring", "carrier", "planet 1", "planet 2", "planet 3"]
+    for body in bodies[0][3:]:
+        reach = np.hypot(*body.points[:, :2].mean(axis=0))
+        assert reach == pytest.approx(stages.feasible.drive.center_distance, rel=1e-3)
+    wheels = [0, 1, 3, 4, 5]
+    means = np.array(
+        [
+            bodies[0][i].point_data["displacement"].mean(axis=0)[:2]
+            - 1j * bodies[3][i].point_data["displacement"].mean(axis=0)[:2]
+            for i in wheels
+        ]
+    )
+    wanted = (set_.free @ modes.shapes[:, 1]).reshape(-1, 3)[wheels, :2]
+    factor = np.vdot(wanted, means) / np.vdot(wanted, wanted)
+    assert means == pytest.approx(factor * wanted, abs=0.02 * float(np.abs(means).max()))

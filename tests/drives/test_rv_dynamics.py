@@ -9,16 +9,22 @@ import numpy as np
 import pytest
 
 from tests.drives.rv_cases import THREE_CRANKS, drive, level_of, without
+from trochoid.drives.casing import rigid_shaken
+from trochoid.drives.rv.breakdown import PARTS
 from trochoid.drives.rv.carried import carried_masses, crank_masses
 from trochoid.drives.rv.design import Design
 from trochoid.drives.rv.mass import masses
-from trochoid.drives.rv.reactions import Reactions, carrier_bearings, frame_speed, reactions
+from trochoid.drives.rv.mode_shapes import films
+from trochoid.drives.rv.modes import campbell, lines, natural_modes
+from trochoid.drives.rv.reactions import Reactions, carrier_bearings, frame_speed, on_casing, reactions
 from trochoid.drives.rv.series import Series, solve_series, turn_angles
 from trochoid.drives.rv.spectrum import force_lines
 from trochoid.drives.rv.vibration import casing_vibration
+from trochoid.drives.seats import seats_residual
 from trochoid.dynamics.carried import mass_matrix
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array
+from trochoid.scene.needs import SEATS_OF
 
 POSITIONS = 24
 BALANCE = 1e-9
@@ -91,6 +97,10 @@ def test_forces_on_the_casing_are_the_inertia_of_the_members(
     assert at.casing_rigid.force[:, :2] == pytest.approx(
         made.crank_speed**2 * orbiting * out, abs=1e-9 * size
     )
+    for model, whole in (("rigid", at.casing_rigid), ("elastic", at.casing)):
+        places = on_casing(made, at, model)
+        assert tuple(places) == SEATS_OF["rv"]
+        assert seats_residual(places, whole) <= BALANCE
 
 
 @pytest.mark.independent
@@ -172,7 +182,7 @@ def test_casing_feels_the_couple_at_the_speed_of_the_crankshafts(fixed: str) -> 
     """Rigid members leave m e ω² Δz of discs and eccentrics, one line at the absolute speed of the crankshafts."""
     speed = 3000 if fixed == "sun" else 6000  # above 10 Hz
     made, at = found(f"drive.fixed={fixed}", f"operation.input_speed={speed}")
-    vibration = casing_vibration(made, at)
+    vibration = casing_vibration(made, at, rigid_shaken(made.scene))
     size = np.abs(vibration.rigid.velocity).max(axis=(0, 1))
     assert vibration.rigid.frequencies[size.argmax()] == pytest.approx(
         abs(made.crank_speed) / (2 * np.pi), rel=1e-9
@@ -194,5 +204,70 @@ def test_too_few_positions_are_refused_and_too_coarse_ones_named() -> None:
     short = solve_series(made, "level0", level_of(made), series.angle[:3])
     with pytest.raises(TrochoidError, match=r"raise ask\.positions"):
         reactions(made, short, masses(made), 0.02)
-    said = casing_vibration(made, found()[1]).elastic.warnings
+    said = casing_vibration(made, found()[1], rigid_shaken(made.scene)).elastic.warnings
     assert any("; 70 positions (ask.positions) cover the whole band" in each for each in said), said
+
+
+@pytest.mark.independent
+def test_heavy_carrier_on_the_torsional_stiffness() -> None:
+    """A carrier of 1e4 kg·m²: the lowest mode is √(k/J)/2π with the tangent stiffness of each place.
+
+    The mean stiffness of the carrier's frame, in which the load goes round, would be a twentieth too high at least.
+    """
+    made, series = solved()
+    heavy = masses(made)
+    heavy = replace(heavy, carrier=replace(heavy.carrier, axial_inertia=1e4))
+    parts = carried_masses(made, series.motions, heavy)
+    modes = natural_modes(made, series, heavy)
+    inertia = float(mass_matrix(parts)[-1, -1])
+    tangent = series.compliance - series.parts[:, PARTS.index("wandering_contacts")]
+    expected = np.sqrt(1.0 / tangent[:-1] / inertia) / (2.0 * np.pi)
+    assert modes.modes[0].frequency == pytest.approx(expected.mean(), rel=1e-4)
+    assert (modes.lowest[0], modes.highest[0]) == pytest.approx((expected.min(), expected.max()), rel=1e-4)
+    assert modes.modes[0].words.startswith("carrier turning 100 %")
+    mean = series.stiffness[:-1].mean(axis=0)
+    assert np.sqrt(1.0 / np.linalg.inv(mean)[-1, -1] / inertia) / (2.0 * np.pi) > 1.05 * expected.mean()
+
+
+@pytest.mark.property
+def test_modes_of_the_example_and_their_pictures() -> None:
+    """All 19 motions have modes; means lie between the ends of the turn; planets, discs, carrier are named; films."""
+    made, series = solved()
+    parts = masses(made)
+    modes = natural_modes(made, series, parts)
+    assert (len(modes.modes), modes.free) == (len(series.motions.names), 0)
+    mean = np.array([mode.frequency for mode in modes.modes])
+    assert np.all(np.diff(mean) > 0.0)
+    assert np.all((modes.lowest <= mean) & (mean <= modes.highest))
+    words = " ".join(mode.words for mode in modes.modes)
+    assert all(name in words for name in ("planets turning", "disc 1 across the axis", "carrier turning"))
+    assert lines(made)["sun and planets mesh"] == pytest.approx(
+        12.0 * (1.0 - float(made.speeds.members["carrier"]))
+    )
+    assert {"crankshafts turn", "sun and planets mesh"} <= {
+        c.group for c in campbell(made, series, parts).curves
+    }
+    shown = films(made, series, parts, modes)
+    bodies = {body.name: body for body in shown[0].frames[0][1]}
+    names = [
+        "disc 1",
+        "disc 2",
+        "crankshaft 1",
+        "planet 1",
+        "crankshaft 2",
+        "planet 2",
+        "sun",
+        "carrier",
+        "ring",
+    ]
+    assert list(bodies) == names
+    assert not bodies["ring"].point_data["displacement"].any()
+
+
+@pytest.mark.property
+def test_work_on_the_elastic_motion_is_what_damping_takes() -> None:
+    """Inertia by masses, springs by contacts, damping by modes: their work over a turn sums to nothing."""
+    _, moved = found()
+    assert moved.response is not None
+    assert moved.response.loss > 0.0
+    assert moved.work < BALANCE

@@ -328,6 +328,55 @@ def test_strip_that_can_never_touch() -> None:
     assert not other.forces[1][:, -1].any()
 
 
+def _idle(spring: float) -> tuple[Problem, Solution]:
+    """A pressed contact and an open one, whose motion rests on a spring and starts elsewhere; contacts yield 2."""
+    arms = np.array([[[1.0, 0.0]], [[0.0, 1.0]]])
+    group = Group(np.full((2, 1, 1), 2.0), np.array([[0.0], [1.0]]), arms)
+    problem = Problem((group,), np.zeros((2, 2)), np.diag([0.0, spring]), np.array([1.0, 0.0]))
+    none = np.zeros(())
+    start = Solution((), np.array([0.0, 0.5]), (np.array([[0], [-1]]),), none.astype(int), none, none)
+    return problem, start
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("spring", [1e-6, 1e-9, 1e-10, 1e-11, 1e-12])
+def test_idle_member_on_a_faint_spring_comes_home(spring: float) -> None:
+    """A member that nothing presses hangs on a spring 1e12 times softer than contacts: it is no fault, Ka = 0."""
+    problem, start = _idle(spring)
+    solution = solve(problem, start)
+    assert float(solution.forces[0][0, 0]) == pytest.approx(1.0, rel=1e-12)
+    assert not solution.forces[0][1].any()
+    assert spring * abs(solution.motion[1]) < 1e-13
+
+
+def _carried(spring: float) -> Problem:
+    """A contact of compliance 2, overlapping by 3, and a load of 1 on a member; a stiff spring joins it to another
+    member on a ground spring of 0.1, and both move by about 0.83.
+    """
+    group = Group(np.full((1, 1, 1), 2.0), np.array([[-3.0]]), np.array([[[1.0, 0.0]]]))
+    springs = np.array([[spring, -spring], [-spring, spring + 0.1]])
+    return Problem((group,), np.zeros((1, 1)), springs, np.array([1.0, 0.0]))
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("spring", [1.0, 1e3, 1e6])
+def test_stiff_spring_between_members_that_move_together(spring: float) -> None:
+    """p = (F + K g)/(1 + K C) with K of both springs in series: large terms cancel to 1, and nothing lacks support."""
+    solution = solve(_carried(spring))
+    series = 1.0 / (1.0 / spring + 1.0 / 0.1)
+    assert float(solution.forces[0][0, 0]) == pytest.approx(
+        (1.0 + 3.0 * series) / (1.0 + 2.0 * series), rel=1e-9
+    )
+
+
+@pytest.mark.property
+def test_spring_that_rounding_hides_is_refused() -> None:
+    """1e12 times the contact's stiffness: the message says how stiff is too stiff, and that much is solved."""
+    with pytest.raises(NotConverged, match=r"1\.0e\+12 N/m .* take 7e\+05 N/m at most"):
+        solve(_carried(1e12))
+    assert solve(_carried(7e5)).imbalance < 1e-9
+
+
 def _opening_motion(problem: Problem) -> Problem:
     return replace(
         problem,

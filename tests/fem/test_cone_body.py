@@ -17,7 +17,8 @@ from trochoid.fem.cone_sector import Sector, condense, station_loads
 from trochoid.fem.cone_stiffness import cone_stiffness
 from trochoid.fem.material import Material
 from trochoid.geometry.sphere_mesh import mesh_sphere
-from trochoid.geometry.sphere_outline import RimShape, roller_outline, sector_outline
+from trochoid.geometry.sphere_outline import roller_outline, sector_outline
+from trochoid.geometry.sphere_rim import RimShape
 from trochoid.kinematics.errors import Infeasible, TrochoidError
 from trochoid.kinematics.spherical import rotation
 from trochoid.kinematics.spherical_curve import SmallCircle

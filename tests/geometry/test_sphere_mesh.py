@@ -10,14 +10,9 @@ from hypothesis import assume, given, settings
 
 from tests.kinematics.sphere_cases import EXAMPLES, teeth, tooth
 from trochoid.geometry.sphere_mesh import jacobians, mesh_sphere, sphere_quality
-from trochoid.geometry.sphere_outline import (
-    RimShape,
-    SphereOutline,
-    beyond_edge,
-    roller_outline,
-    sector_outline,
-)
+from trochoid.geometry.sphere_outline import SphereOutline, roller_outline, sector_outline
 from trochoid.geometry.sphere_refined import Focus, refined_breaks
+from trochoid.geometry.sphere_rim import RimShape, beyond_edge
 from trochoid.kinematics.curve import ArcLength
 from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.sphere_tooth import SphereTooth

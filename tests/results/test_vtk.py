@@ -14,8 +14,10 @@ import numpy as np
 import pytest
 
 from trochoid.kinematics.errors import TrochoidError
-from trochoid.results import Field, Outcome, vtk
-from trochoid.view import exaggeration, view
+from trochoid.results import Field, Film, Outcome, vtk
+from trochoid.results.film import Later
+from trochoid.results.plot import Axis
+from trochoid.view import Wanted, exaggeration, view
 
 _EXAMPLE = Path(__file__).parents[2] / "examples" / "inspect_vtk.py"
 
@@ -133,6 +135,150 @@ def _colors(picture: Path) -> int:
     from PIL import Image
 
     return len(np.unique(np.asarray(Image.open(picture).convert("RGB")).reshape(-1, 3), axis=0))
+
+
+CORNERS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=np.float32)
+FACES = np.array([[0, 0, 0, 1], [2, 1, 3, 2], [1, 3, 2, 3]])
+
+
+def _space(frames: int = 3) -> Film:
+    """A body with stress, one of glass, and a contact, over a phase."""
+
+    def frame(i: int) -> tuple[float, tuple[Field, ...]]:
+        up = np.zeros((4, 3), np.float32) + np.array([0, 0, 1e-6 * i], np.float32)
+        stress: dict[str, Any] = {
+            "von_mises": 1e6 * np.arange(4.0),
+            "displacement": up,
+            "deformation": 0.5 * up,
+        }
+        aside = np.array([[1e-3, 0, 0], [-1e-3, 0, 0], [0, 0, 0], [0, 0, 0]])
+        touch = {"contact_pressure": np.full(4, 2e9), "from_middle": aside}
+        parts = (
+            Field("gear", CORNERS, FACES, stress, "triangle"),
+            Field("shaft", 1.5 * CORNERS, FACES, {}, "triangle", "#aa0000", 0.5),
+            Field("contacts", CORNERS + np.float32(0.3), FACES[:, :1], touch, "triangle"),
+        )
+        return 0.5 * i, parts[: 3 if i else 2]
+
+    return Film(
+        "turns",
+        "Gears <in> space",
+        Later(lambda: [frame(i) for i in range(frames)]),
+        Axis("phase"),
+        "contact_pressure",
+        True,
+        (0.0, -1.0, 0.25),
+    )
+
+
+@pytest.fixture(scope="module")
+def turns(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("turns")
+    vtk.save(_space(), folder)
+    return folder
+
+
+@pytest.mark.exact
+def test_a_film_says_how_to_look_at_it(turns: Path) -> None:
+    """Title, axis, what is shown, from where; bodies by name with their looks."""
+    found = vtk.listing(turns / "turns.pvd")
+    assert (found.title, found.axis, found.units) == ("Gears <in> space", "phase", "")
+    assert (found.shown, found.spatial, found.seen_from) == ("contact_pressure", True, (0.0, -1.0, 0.25))
+    assert [value for value, _ in found.frames] == [0.0, 0.5, 1.0]
+    assert [[body.name for body in bodies] for _, bodies in found.frames] == [
+        ["gear", "shaft"],
+        *[["gear", "shaft", "contacts"]] * 2,
+    ]
+    assert (found.frames[0][1][1].color, found.frames[0][1][1].opacity) == ("#aa0000", 0.5)
+
+
+@pytest.mark.independent
+def test_single_precision_is_kept(turns: Path) -> None:
+    """VTK reads float32 arrays as such, float64 ones beside them, and the cells as they were given."""
+    reader: Any = import_module("pyvista")
+    gear = reader.read(turns / "turns" / "gear_002.vtu")
+    np.testing.assert_array_equal(gear.points, CORNERS)
+    assert gear.points.dtype == gear["displacement"].dtype == np.float32
+    assert gear["von_mises"].dtype == np.float64
+    np.testing.assert_array_equal(gear.cells.reshape(-1, 4)[:, 1:], FACES.T)
+    np.testing.assert_array_equal(gear["displacement"][:, 2], np.float32(2e-6))
+
+
+@pytest.mark.exact
+def test_frames_are_made_when_looked_at() -> None:
+    """Once, and not before."""
+    calls = []
+    later = Later(lambda: calls.append(1) or _space().frames)  # type: ignore[func-returns-value]
+    assert not calls
+    assert len(later) == 3
+    assert later[1][0] == 0.5
+    assert len(calls) == 1
+
+
+@pytest.mark.exact
+def test_earlier_collections_are_still_read(tmp_path: Path) -> None:
+    """Those before films had axes and looks."""
+    (tmp_path / "fields.pvd").write_text(
+        '<VTKFile type="Collection"><Collection><DataSet timestep="5" part="0" file="fields/disc_1_000.vtu"/>'
+        "</Collection></VTKFile>"
+    )
+    found = vtk.listing(tmp_path / "fields.pvd")
+    assert (found.axis, found.units, found.spatial) == ("input angle", "deg", False)
+    assert found.frames[0][1][0].name == "disc 1"
+    (tmp_path / "other.pvd").write_text("<VTKFile/>")
+    with pytest.raises(ValueError, match="no film"):
+        vtk.listing(tmp_path / "other.pvd")
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize(
+    ("wanted", "said"),
+    [
+        (Wanted("turn"), r'no film "turn".*\n  turns: Gears <in> space'),
+        (Wanted(frame=3), r"--frame 3: the film has 3 frame\(s\); take 0 to 2"),
+        (Wanted(frame=-1), "--frame -1"),
+        (Wanted(at=1.2), r"--at 1\.2: the film's phase goes from 0 to 1$"),
+        (Wanted(frame=1, at=0.5), "not both"),
+    ],
+)
+def test_what_is_not_there_is_said(turns: Path, wanted: Wanted, said: str) -> None:
+    """Films by name, frames by number and value."""
+    with pytest.raises(TrochoidError, match=said):
+        view(turns, wanted=wanted)
+
+
+@drawing
+@pytest.mark.property
+def test_view_of_bodies_in_space(turns: Path, tmp_path: Path) -> None:
+    """The command saves a picture with two scales of colours and a movie of all frames, and says what it shows."""
+    picture, movie = tmp_path / "turns.png", tmp_path / "turns.gif"
+    command = ["view", str(turns), "--at", "0.4", "--screenshot", str(picture), "--movie", str(movie)]
+    done = subprocess.run(
+        [sys.executable, "-m", "trochoid", *command], capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "turns: Gears <in> space, phase 0.5\n"
+    assert _colors(picture) > 100
+    from PIL import Image
+
+    assert getattr(Image.open(movie), "n_frames", 1) == 3
+
+
+@drawing
+@pytest.mark.property
+def test_view_refuses_what_it_cannot_show_or_write(turns: Path, tmp_path: Path) -> None:
+    """Point data that no body has; an animation that is no GIF."""
+    for option, said in (
+        (["--show", "stress"], "contact_pressure, deformation, displacement, von_mises"),
+        (["--movie", str(tmp_path / "a.mp4")], "only .gif is written"),
+    ):
+        command = ["view", str(turns), "--screenshot", str(tmp_path / "a.png"), *option]
+        done = subprocess.run(
+            [sys.executable, "-m", "trochoid", *command], capture_output=True, text=True, timeout=120
+        )
+        assert done.returncode != 0
+        assert said in done.stderr
+        assert "Traceback" not in done.stderr
 
 
 @drawing

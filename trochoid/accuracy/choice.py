@@ -9,6 +9,7 @@ from typing import Any
 from trochoid.accuracy.study import Choice, Cost, Judged
 from trochoid.kinematics.errors import NotConverged
 from trochoid.ladder import Ladder
+from trochoid.scene.ask import MOST_FACETS
 
 TENTH = 0.1
 
@@ -44,6 +45,12 @@ def choice(
     judged = next(j for j in steps if (j.step.rung, j.step.level) == (pick.rung, pick.level))
     run = seconds(pick.levels, pick.rung) if pick.levels else judged.step.seconds
     tenth = None if not judged.error else cost(ladder, steps, TENTH * judged.error)
+    if tenth is not None and not tenth.measured and tenth.level is not None and tenth.level > MOST_FACETS:
+        remarks.append(
+            f"a tenth of the error would take {tenth.level} {ladder.unit}, more than the {MOST_FACETS} that "
+            "accuracy.facets_per_lobe may name"
+        )
+        tenth = None
     return Choice(pick, judged, run, tenth)
 
 

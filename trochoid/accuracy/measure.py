@@ -8,7 +8,7 @@ from typing import Any
 
 from trochoid.accuracy.choice import choice
 from trochoid.accuracy.errors import errors, modelled
-from trochoid.accuracy.study import Check, Judged, Numbers, Step, Study
+from trochoid.accuracy.study import Check, Error, Judged, Numbers, Step, Study
 from trochoid.clock import Clock
 from trochoid.drives import drive_of
 from trochoid.kinematics.errors import NotConverged, SceneError, TrochoidError
@@ -197,12 +197,27 @@ def _judged(ladder: Ladder, steps: Sequence[Step], remarks: list[str]) -> list[J
     assert reference.level is not None
     assert before.level is not None
     left = 1.0 / ((reference.level / before.level) ** ladder.order - 1.0)
+    own = errors(before.numbers, reference.numbers, left)
     return [
-        Judged(step, errors(before.numbers, reference.numbers, left), estimated=True)
+        Judged(step, own, estimated=True)
         if step is reference
-        else Judged(step, errors(step.numbers, reference.numbers))
+        else Judged(
+            step, _beside(errors(step.numbers, reference.numbers), own, step.level == reference.level)
+        )
         for step in steps
     ]
+
+
+def _beside(found: Mapping[str, Error], own: Mapping[str, Error], same_mesh: bool) -> Mapping[str, Error]:
+    """Return errors against the reference; on its own mesh that of the mesh is in both, does not show in their
+    difference, and is added.
+    """
+    if not same_mesh:
+        return found
+    return {
+        name: Error(error.size + own[name].size, error.part) if name in own else error
+        for name, error in found.items()
+    }
 
 
 def _check(climb: Climb, judged: Sequence[Judged], announce: Callable[[str], None]) -> Check | None:

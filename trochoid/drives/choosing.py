@@ -48,12 +48,13 @@ def choose(
     worst_error: Callable[[S, S], tuple[float, str]],
     model_error: Callable[[], float],
     rung: str | None = None,
+    unit: str = "facets per lobe",
 ) -> Chosen:
     """Return the first of the `levels`, coarse to fine, whose estimated error meets the tolerance.
 
     `solve(rung, level)` gives the contacts over a turn, `worst_error(fine, coarse)` the largest relative error and
-    whose it is, `model_error()` that of level 0, which is not asked for when the scene names a `rung`. Raises
-    TooCoarse when no level is fine enough.
+    whose it is, `model_error()` that of level 0, which is not asked for when the scene names a `rung`; `unit` is what a
+    level counts. Raises TooCoarse when no level is fine enough.
     """
     off = 0.0
     if rung is None:
@@ -68,7 +69,7 @@ def choose(
             return Chosen(rung, tuple(levels[:count]), error, name, off)
         coarse = fine
     raise TooCoarse(
-        f"the error of {name} is estimated at {error:.1e} with {levels[-1]} facets per lobe, more than "
+        f"the error of {name} is estimated at {error:.1e} with {levels[-1]} {unit}, more than "
         f"accuracy.tolerance = {tolerance:g}; raise the tolerance to {error:.1e}, or name accuracy.facets_per_lobe "
         "and accept the error"
     )

@@ -27,7 +27,7 @@ def render(outcome: Outcome) -> str:
         outcome=outcome,
         title=outcome.title or "Gear drive",
         version=version(),
-        films=", ".join(f"{film.name}.pvd" for film in outcome.films),
+        films=outcome.films,
         tiles=tiles_of(outcome.quantities),
         tables=tables_of(outcome.quantities),
         figures={title: caption for title, (_, caption) in figures.items()},

@@ -7,9 +7,10 @@ from typing import Annotated
 from pydantic import ValidationInfo, field_validator
 
 from trochoid.scene import units
-from trochoid.scene.fields import Measure, Play, PositiveLength, Table, fault
+from trochoid.scene.fields import Measure, Play, PositiveLength, Stiffness, Table, fault
 
 BoreAngle = Annotated[float, Measure(units.ANGLE, above=0.0, below=90.0)]
+Lean = Annotated[float, Measure(units.ANGLE, least=-1.0, most=1.0)]
 RimAngle = Annotated[float, Measure(units.ANGLE, above=0.0, below=180.0)]
 
 
@@ -21,6 +22,9 @@ class Rollers(Table):
     bore_angle: BoreAngle | None = None
     crown: Play = 0.0
     clearance: Play = 0.0
+    tilt: Lean = 0.0
+    skew: Lean = 0.0
+    seat_stiffness: Stiffness | None = None
 
 
 class Rim(Table):

@@ -68,12 +68,6 @@ def nearest_to_printed_pair() -> Finding:
     return Finding(f"the nearest misses by {off:.3f}", off < 0.005)
 
 
-def geneva_over_cusp() -> tuple[float, ...]:
-    """B and C of the Geneva wheel over those of the cusp, ψ_Σ = 90°."""
-    wheel, pin = pair(geneva(90.0 * DEGREE)), pair(cusp())
-    return wheel[0] / pin[0], wheel[1] / pin[1]
-
-
 def from_120_to_60(name: str) -> float:
     """A peak at a swing of 120° over that at 60°, from cusp to cusp."""
     wide, small = (getattr(peaks(cusp(swing)), name) for swing in (120.0, 60.0))

@@ -11,6 +11,7 @@ QUANTITIES = answers(
         "answers_geometry": ("profile", "geometry_quality", "mass"),
         "answers_forces": ("contact_force_max", "reactions"),
         "answers_contact": ("contact_pressure_max", "mesh_stiffness", "torsional_stiffness"),
+        "answers_modes": ("natural_frequencies",),
         "answers_vibration": ("dynamic_factor", "residual_vibration"),
     },
 )

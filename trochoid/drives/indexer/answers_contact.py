@@ -6,31 +6,44 @@ import math
 
 import numpy as np
 
+from trochoid.drives.indexer.design import INDEXER
 from trochoid.drives.indexer.pin import Pair, lash
 from trochoid.drives.indexer.shaken import lock_of
 from trochoid.drives.indexer.stages import Stages
+from trochoid.drives.indexer.wall import ELASTIC
 from trochoid.fem.pin_slot import Pressed
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Parts, Quantity
 
 UNLOADED = "nothing presses the pin: operation.output_torque is 0 and there is no inertia"
 LINE = (
-    "half-spaces, no finite elements; least and greatest depth of the wall taken as half and twice wall_depth give the "
+    "wheel rigid but for half-spaces; least and greatest depth of the wall taken as half and twice wall_depth give the "
     "error"
 )
-POINT = "Hertz's half-spaces, no finite elements: error not known"
+POINT = "wheel rigid but for Hertz's half-spaces: error not known"
+MESHED = "wheel and pin bend, finite elements; errors by two meshes"
 
 
 def model_of(pair: Pair) -> str:
     """Return what the contact is made of."""
+    if pair.elastic is not None:
+        return ELASTIC
     return "Hertz" if pair.pin.shape == "barrel" else "slices"
+
+
+def note_of(pair: Pair) -> str:
+    """Return what is behind a stiffness and its error."""
+    if pair.elastic is not None:
+        return MESHED
+    return POINT if pair.pin.shape == "barrel" else LINE
 
 
 def pressure_parts(pair: Pair, pressed: Pressed) -> dict[str, Quantity]:
     """Return largest pressure and the contact's half width; along the pin too where it is a point."""
-    model = model_of(pair)
+    model, peak = model_of(pair), 1e-6 * float(pressed.pressure.max())
+    sure = pair.differences["pressure"] if pair.coarse is not None else None
     rows = {
-        "pressure": Quantity(1e-6 * float(pressed.pressure.max()), "MPa", None, model),
+        "pressure": Quantity(peak, "MPa", None if sure is None else sure * peak, model),
         "half_width": Quantity(1e6 * float(pressed.half_width.max()), "um", None, model),
     }
     if pair.pin.shape == "barrel":
@@ -53,12 +66,15 @@ def contact_pressure_max(s: Stages) -> Quantity:
         rows[name] = pressure_parts(pair, pair.at_largest) | {
             "at": Quantity(math.degrees(at), "deg", None, "rigid")
         }
-    note = (
-        "Hertz's half-spaces, no finite elements: error not known"
-        if s.scene.drive.pin.shape == "barrel"
-        else "half-spaces, the pin bends: it presses most at its root; sharp ends press more, error not known"
-    )
-    return Quantity(parts=rows, note=note)
+    return Quantity(parts=rows, note=_pressure_note(s.pairs[INDEXER]))
+
+
+def _pressure_note(pair: Pair) -> str:
+    if pair.elastic is not None:
+        return f"{MESHED}; " + ("Hertz" if pair.pin.shape == "barrel" else "sharp ends of the pin press more")
+    if pair.pin.shape == "barrel":
+        return POINT
+    return "half-spaces, the pin bends: it presses most at its root; sharp ends press more, error not known"
 
 
 def mesh_stiffness(s: Stages) -> Quantity:
@@ -87,15 +103,13 @@ def mesh_stiffness(s: Stages) -> Quantity:
             "normal": Quantity(
                 1e-6 * at_force / lever**2, "N/um", _error(pair, 1e-6 * at_force / lever**2), model
             ),
-            "contact_share_of_compliance": Quantity(pair.share, "", None, model),
+            **{f"{key}_share_of_compliance": Quantity(x, "", None, model) for key, x in pair.shares.items()},
             "lag_max": Quantity(math.degrees(60.0 * float(over.lag.max())), "arcmin", None, model),
         }
         if pair.law.play > 0.0:
             row["play_at_end"] = Quantity(math.degrees(60.0 * lash(pair, half)), "arcmin", 0.0, "exact")
         rows[name] = row
-    note = (
-        POINT if s.scene.drive.pin.shape == "barrel" else LINE
-    ) + "; where the pin carries 1 % of its largest force"
+    note = note_of(s.pairs[INDEXER]) + "; where the pin carries 1 % of its largest force"
     return Quantity(parts=rows, note=note)
 
 

@@ -42,13 +42,19 @@ def _factor(x: Shaken) -> Parts:
             60.0 * math.degrees(float(np.abs(x.fine.index.deviation).max())), "arcmin", None, MODEL
         ),
     }
+    return row | _entry(x) | (pressure_parts(x.pair, x.pressed) if force > 0.0 else {})
+
+
+def _entry(x: Shaken) -> dict[str, Quantity]:
+    """Return what happens as the pin first touches its slot."""
     start = x.at_entry
-    row["at_entry_over_rigid_start"] = (
-        Quantity(start, "", None, MODEL)
-        if math.isfinite(start)
-        else Quantity("starts without force", model="exact")
-    )
-    return row | pressure_parts(x.pair, x.pressed)
+    if math.isnan(x.touch):
+        return {"at_entry_over_rigid_start": Quantity("never touches its slot in the index", model=MODEL)}
+    words = Quantity("starts without force", model="exact")
+    row = {"at_entry_over_rigid_start": Quantity(start, "", None, MODEL) if math.isfinite(start) else words}
+    if x.pair.law.play > 0.0:
+        row["first_touch"] = Quantity(1e3 * x.touch, "ms", None, MODEL)
+    return row
 
 
 def residual_vibration(s: Stages) -> Quantity:
@@ -77,7 +83,7 @@ def _residual(s: Stages, x: Shaken) -> Parts:
         ),
         "amplitude_on_sphere_radius": Quantity(1e3 * radius * amplitude, "um", 1e3 * radius * error, MODEL),
         "velocity": Quantity(speed, "rad/s", None, MODEL),
-        "settling_time": Quantity(x.settling, "s", None, MODEL),
+        "settling_time": _settling(x),
         "left_at_next_index": Quantity(x.left, "", None, MODEL),
         "held_off_by_friction": Quantity(3600.0 * math.degrees(x.offset), "arcsec", None, MODEL),
     }
@@ -85,3 +91,10 @@ def _residual(s: Stages, x: Shaken) -> Parts:
         key = "natural_frequency" if len(x.output.frequencies) == 1 else f"natural_frequency_{i}"
         row[key] = Quantity(omega / (2.0 * math.pi), "Hz", None, MODEL)
     return row
+
+
+def _settling(x: Shaken) -> Quantity:
+    if x.settling is not None:
+        return Quantity(x.settling, "s", None, MODEL)
+    what = "the dwell" if x.followed > 0.999 else f"{x.fine.dwell.time[-1]:.3g} s, which were followed"
+    return Quantity(f"not settled within {what}", model=MODEL)

@@ -39,7 +39,9 @@ class State:
     """Forces at the drive angles (n,) of an index: torque on the wheel, pin force, tooth force, input torque.
 
     `wheel_moment` and `arm_moment` tilt wheel and arm in their bearings about the centre of the sphere; `arm_force`
-    is what the planet's bearing puts on the arm, `power` what goes into the arm.
+    is what the planet's bearing puts on the arm, `power` what goes into the arm.  As vectors (n, 6) of force (N) and
+    moment about the centre (N·m): `on_arm` what planet and teeth put on the arm, `on_wheel` what the pin puts on the
+    wheel.
     """
 
     torque: Array
@@ -50,6 +52,8 @@ class State:
     arm_force: Array
     arm_moment: Array
     power: Array
+    on_arm: Array
+    on_wheel: Array
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -62,6 +66,11 @@ class Forces:
     def state(self, t: Array) -> State:
         """Return forces at the drive angles t (n,) from the middle of the index, |t| ≤ φ0."""
         return _state(self.indexer, self.load, t)
+
+    def under(self, t: Array, pin: Array) -> State:
+        """Return forces at the drive angles t (n,) under pin forces (n,) in N, whatever makes them."""
+        torque = pin * self.load.radius * np.sin(self.indexer.reach(t))
+        return _loaded(self.indexer, self.load, t, torque, pin)
 
     def largest(self, value: Callable[[State], Array]) -> tuple[float, float]:
         """Return the value with the largest size over an index, and its drive angle (rad)."""
@@ -93,12 +102,15 @@ def forces(indexer: Indexer, load: Load) -> Forces:
 
 
 def _state(indexer: Indexer, load: Load, t: Array) -> State:
-    path, radius = indexer.path, load.radius
     at = motion(indexer, t)
     torque = load.inertia * load.speed**2 * at.acceleration + indexer.sense * load.friction
+    return _loaded(indexer, load, t, torque, torque / (load.radius * np.sin(indexer.reach(t))))
+
+
+def _loaded(indexer: Indexer, load: Load, t: Array, torque: Array, pin: Array) -> State:
+    path, radius = indexer.path, load.radius
     point, normal = path.point(t), slot_normal(indexer, t)
     reach = indexer.reach(t)
-    pin = torque / (radius * np.sin(reach))
     axis, touch, along = _arm_frame(indexer, t)
     by_pin, by_tooth = np.cross(point, normal), np.cross(touch, along)
     # a pin on the planet's axis needs no teeth: a Geneva wheel's crank
@@ -106,15 +118,19 @@ def _state(indexer: Indexer, load: Load, t: Array) -> State:
     tooth = pin * np.sum(by_pin * axis, axis=-1) / lever if path.pin > 0.0 else np.zeros_like(pin)
     moment = -radius * (pin[:, None] * by_pin - tooth[:, None] * by_tooth)  # of pin and teeth on the planet
     input_torque = -moment[:, 2]
+    force = tooth[:, None] * along - pin[:, None] * normal
+    on_wheel = np.concatenate([pin[:, None] * normal, radius * pin[:, None] * by_pin], axis=-1)
     return State(
         torque=torque,
         pin=pin,
         tooth=tooth,
         input_torque=input_torque,
         wheel_moment=np.abs(pin) * radius * np.abs(np.cos(reach)),
-        arm_force=np.linalg.norm(tooth[:, None] * along - pin[:, None] * normal, axis=-1),
+        arm_force=np.linalg.norm(force, axis=-1),
         arm_moment=np.hypot(moment[:, 0], moment[:, 1]),
         power=input_torque * load.speed,
+        on_arm=np.concatenate([force, moment], axis=-1),
+        on_wheel=on_wheel,
     )
 
 

@@ -39,6 +39,12 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
             from trochoid.drives.indexer.plane import drawing
 
             made = replace(made, drawing=drawing(stages))
+    if "contact" in ran:
+        from trochoid.drives.indexer.films import contact_film
+
+        pair, facets = stages.pairs["indexer"], stages.bodies.facets
+        film = contact_film(stages.design, stages.slots["indexer"], pair, facets)
+        made = replace(made, films=(film, *made.films))
     return timed(made, stages.clock)
 
 
@@ -60,7 +66,15 @@ def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
             Check.within(f"power in = power out + kinetic, {SHOWN[name]}", forces.residual(), EXACT)
             for name, forces in stages.forces.items()
         ]
-    if "vibration" in ran:
+    if "reactions" in ran:
+        found += [
+            Check.within(
+                f"power in = power at the pin, {SHOWN[name]}, elastic", x["elastic"].residual(), EXACT
+            )
+            for name, x in stages.reactions.items()
+            if "elastic" in x
+        ]
+    if "vibration" in ran and stages.response[0]:
         found += [
             Check.within(f"work of the pin = energy and losses, {NAMES[name]}", x.balance, MARCHED)
             for name, x in stages.shaken.items()
@@ -77,8 +91,13 @@ def warnings(stages: Stages, ran: tuple[str, ...]) -> tuple[str, ...]:
             f"{turns:.4g} swings make a turn of the wheel: it can index on and on in one sense only if a whole "
             f"number does, as with swing_angle = {360.0 / max(1, round(turns)):.7g}"
         )
+    if "contact" in ran and stages.refusal:
+        said.append(
+            f"the slotted wheel could not be meshed or pressed ({stages.refusal}); it counts as rigid: pin and wall "
+            "yield as half-spaces"
+        )
     if "contact" in ran:
-        said += _elastic_warnings(stages, ran)
+        said += _mesh_warnings(stages) + _elastic_warnings(stages, ran)
     if "geometry" not in ran:
         return tuple(said)
     travel, within = stages.slots["indexer"], made.drive.dwell_tolerance
@@ -95,6 +114,21 @@ def warnings(stages: Stages, ran: tuple[str, ...]) -> tuple[str, ...]:
             )
         )
     return tuple(said)
+
+
+def _mesh_warnings(stages: Stages) -> list[str]:
+    """Say where two meshes differ by more than the tolerance."""
+    accuracy = stages.scene.accuracy
+    if stages.refusal or stages.bodies.coarse is None or accuracy.facets_per_lobe is not None:
+        return []
+    worst = {name: x.differences["stiffness"] for name, x in stages.pairs.items() if x.coarse is not None}
+    return [
+        f"{NAMES[name]}: two meshes suggest an error of {100.0 * off:.2g} % in stiffness, more than "
+        f"accuracy.tolerance = {accuracy.tolerance:g}, on the finest mesh that a run takes by itself; "
+        "accuracy.facets_per_lobe may name a finer one"
+        for name, off in worst.items()
+        if off > accuracy.tolerance
+    ]
 
 
 def _elastic_warnings(stages: Stages, ran: tuple[str, ...]) -> list[str]:
@@ -115,7 +149,7 @@ def _elastic_warnings(stages: Stages, ran: tuple[str, ...]) -> list[str]:
                 f"{NAMES[name]}: the contact would be {2e3 * along:.3g} mm long on a wheel of "
                 f"{1e3 * pair.pin.thickness:.4g} mm; it presses at its ends: take a smaller pin.crown_radius"
             )
-    if "vibration" in ran:
+    if "vibration" in ran and stages.response[0]:
         said += [
             f"{NAMES[name]}: {100.0 * x.left:.2g} % of the residual vibration are left when the next index starts; "
             "each index is computed from rest"

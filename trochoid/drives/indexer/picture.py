@@ -24,10 +24,22 @@ SPACE = tuple(Axis(name, "m") for name in "xyz")
 def plots(stages: Stages, ran: Collection[str]) -> tuple[Plot, ...]:
     """Return the pictures of what has been computed."""
     found = [in_space(stages.design, stages.slots["indexer"])] if "geometry" in ran else []
-    if "vibration" in ran:
+    if "contact" in ran:
+        from trochoid.drives.indexer.picture_slot import slot_plots
+
+        found += slot_plots(stages.pairs)
+    if "vibration" in ran and stages.response[0]:
         from trochoid.drives.indexer.picture_shaken import courses
 
         found += courses(stages.shaken)
+    if "reactions" in ran:
+        from trochoid.drives.indexer.picture_reactions import reaction_plots
+
+        found += reaction_plots(stages.reactions)
+    if "modes" in ran:
+        from trochoid.drives.indexer.picture_reactions import frequencies
+
+        found.append(frequencies(stages.modes))
     return (*found, *laws(stages.design), family(stages.design))
 
 

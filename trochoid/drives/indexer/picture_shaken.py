@@ -24,8 +24,8 @@ def courses(shaken: Mapping[str, Shaken]) -> list[Plot]:
 def _forces(name: str, x: Shaken) -> Plot:
     time = x.fine.index.time
     curves = (
-        PlotCurve("elastic", _thinned(time, x.pin_force(x.fine))),
-        PlotCurve("rigid", _thinned(time, x.rigid), style="dashed"),
+        PlotCurve("elastic", thinned(time, x.pin_force(x.fine))),
+        PlotCurve("rigid", thinned(time, x.rigid), style="dashed"),
     )
     caption = (
         "From the start of an index, positive where the pin drives. The rigid drive's force jumps at the start; the "
@@ -42,7 +42,7 @@ def _residual(shaken: Mapping[str, Shaken]) -> Plot:
     for name, x in shaken.items():
         dwell = x.fine.dwell
         early = dwell.time <= last
-        curves.append(PlotCurve(NAMES[name], _thinned(dwell.time[early], dwell.deviation[early])))
+        curves.append(PlotCurve(NAMES[name], thinned(dwell.time[early], dwell.deviation[early])))
     caption = (
         "From the stop, the output's angle from where a rigid drive would rest, in the sense of the index. Friction of "
         "the output holds it in the end."
@@ -53,10 +53,11 @@ def _residual(shaken: Mapping[str, Shaken]) -> Plot:
 
 def _shown(x: Shaken) -> float:
     """How long (s) a vibration is worth showing."""
-    return min(1.5 * x.settling + 20.0 / x.output.frequencies[0], float(x.fine.dwell.time[-1]))
+    last = float(x.fine.dwell.time[-1])
+    return last if x.settling is None else min(1.5 * x.settling + 20.0 / x.output.frequencies[0], last)
 
 
-def _thinned(time: Array, value: Array) -> Array:
+def thinned(time: Array, value: Array) -> Array:
     """Points (n, 2) with the least and the largest value of every stretch of a long curve."""
     if len(time) <= POINTS:
         return np.stack((time, value), axis=-1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,10 +12,12 @@ import numpy as np
 from trochoid.drives.indexer.design import Design
 from trochoid.drives.indexer.feasible import between_slots
 from trochoid.drives.indexer.forces import Forces
-from trochoid.dynamics.pin_law import PinLaw, pin_law
+from trochoid.drives.indexer.wall import Bodies
+from trochoid.dynamics.pin_law import PinLaw, pin_law, slot_law
 from trochoid.fem.material import Material
 from trochoid.fem.pin_slot import Pin, Pressed, press
-from trochoid.kinematics.errors import Infeasible
+from trochoid.fem.slot_contact import ElasticPair, press_elastic
+from trochoid.kinematics.errors import Infeasible, NotConverged
 from trochoid.kinematics.indexer_slot import Slot
 from trochoid.kinematics.types import Array
 from trochoid.scene.drive_indexer import IndexerScene
@@ -24,6 +26,10 @@ RESERVE = 4.0  # times the largest force of the rigid drive, up to which the law
 LARGE = 0.1  # rad, by which a wheel that an elastic pin drives does not lag
 LOADED = 0.01  # of the largest force, below which a stiffness is not reported
 SAMPLES = 181
+PLACES = 5  # of an index, and that of the largest force, at which two meshes are compared
+LEAST = 0.15  # of the worst number's relative error: single numbers agree by chance
+
+Presses = Callable[[Array, Array], Pressed]
 
 
 def pin_of(scene: IndexerScene, design: Design, slot: Slot) -> Pin:
@@ -44,19 +50,33 @@ def pin_of(scene: IndexerScene, design: Design, slot: Slot) -> Pin:
     )
 
 
-def law_of(pin: Pin, largest: float, play: float) -> PinLaw:
-    """Tabulate the law of a pin up to `RESERVE` times the moment `largest` (N·m); `play`: half the slot's, m."""
-    tries = np.geomspace(1e-9, LARGE, 41)
-    reached = press(pin, tries).moment
-    i = int(np.searchsorted(reached, RESERVE * largest))
-    if i == len(tries):
+def law_of(
+    pin: Pin, presses: Presses, ends: tuple[float, float] | None, largest: float, play: float
+) -> PinLaw:
+    """Tabulate the law of a pin up to `RESERVE` times the moment `largest` (N·m); `play`: half the slot's, m.
+
+    `ends` (rad) of the pin's way along the slot where the law depends on it, else None.
+    """
+    top = 0.0
+    for tries in np.append(np.geomspace(1e-9, LARGE, 41), np.full(4, LARGE)).reshape(-1, 5):
+        reached = np.min([presses(tries, np.full(len(tries), x)).moment for x in ends or (0.0,)], axis=0)
+        if (i := int(np.searchsorted(reached, RESERVE * largest))) < len(tries):
+            top = float(tries[i])
+            break
+    else:
         raise Infeasible(
             f"pin_radius = {1e3 * pin.radius:.6g} mm: under {largest / pin.distance:.4g} N, with {RESERVE:g} times "
             f"that in reserve, pin and slot would yield by more than {1e3 * LARGE * pin.distance:.3g} mm; "
             "the pin must be thicker, or change operation.output_torque or input_speed"
         )
-    top = float(tries[i])
-    return pin_law(lambda u: press(pin, u).moment, top, play / pin.distance)
+    return tabulated(presses, ends, top, play / pin.distance)
+
+
+def tabulated(presses: Presses, ends: tuple[float, float] | None, top: float, play: float) -> PinLaw:
+    """Return the table of a law up to the angle `top` (rad); `play` in rad."""
+    if ends is None:
+        return pin_law(lambda u: presses(u, np.zeros(len(u))).moment, top, play)
+    return slot_law(lambda u, at: presses(u, at).moment, top, ends, play)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -72,17 +92,35 @@ class Loaded:
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """A pin, its law, and the forces of a mechanism that moves as if rigid."""
+    """A pin, its law, and the forces of a mechanism that moves as if rigid.
+
+    `elastic`: the bodies of an elastic wheel and its pin, `coarse` those of a coarser mesh; None: half-spaces.
+    """
 
     pin: Pin
     law: PinLaw
     forces: Forces
+    elastic: ElasticPair | None = None
+    coarse: ElasticPair | None = None
+
+    def press(self, angle: Array, reach: Array) -> Pressed:
+        """Press the pin by angles u (n,) at angles (n,) from the wheel's axis."""
+        return presses(self.pin, self.elastic)(angle, reach)
+
+    def longer(self, times: float) -> Pair:
+        """Return the pair with a table that reaches so many times as far."""
+        ends = self.law.ends if self.elastic else None
+        return replace(
+            self,
+            law=tabulated(presses(self.pin, self.elastic), ends, times * self.law.top, self.law.play),
+        )
 
     def state(self, t: Array) -> Loaded:
         """Return the pair at drive angles t (n,) of the index."""
-        lever = np.sin(self.forces.indexer.reach(t))
-        u = self.law.pressed(np.abs(self.forces.state(t).pin) * self.pin.distance)
-        pressed = press(self.pin, u)
+        reach = self.forces.indexer.reach(t)
+        lever = np.sin(reach)
+        u = self.law.pressed(np.abs(self.forces.state(t).pin) * self.pin.distance, reach)
+        pressed = self.press(u, reach)
         return Loaded(lever**2 * pressed.slope, u / lever, pressed)
 
     @cached_property
@@ -100,15 +138,35 @@ class Pair:
         return t, self.state(t)
 
     @cached_property
-    def share(self) -> float:
-        """Part of the deflection at the largest force that is the contact's, the rest is bending of the pin."""
+    def shares(self) -> dict[str, float]:
+        """Parts of the deflection at the largest force: of the contact, the pin's bending, and what the wheel adds.
+
+        Contact and pin in closed form, as half-spaces and a beam; a rigid wheel adds nothing.
+        """
         here = self.at_largest
-        found = press(replace(self.pin, bends=False), self._pressing * np.linspace(0.02, 1.0, 99))
-        return float(here.slope[0] / np.interp(here.moment[0], found.moment, found.slope))
+        contact = float(here.slope[0] / self._in_closed_form(here.moment[0], bends=False))
+        if self.elastic is None:
+            return {"contact": contact}
+        try:
+            pin = float(here.slope[0] / self._in_closed_form(here.moment[0], bends=True))
+        except NotConverged:  # pins far too thin for their wheel: nothing to share
+            return {"contact": contact}
+        return {"contact": contact, "pin": pin - contact, "wheel": 1.0 - pin}
+
+    def _in_closed_form(self, moment: float, *, bends: bool) -> float:
+        """Slope (N·m/rad) of the closed form at a moment (N·m)."""
+        pin = replace(self.pin, bends=bends)
+        found = press(pin, self._pressing * np.linspace(0.02, 1.0, 99))
+        return float(np.interp(moment, found.moment, found.slope))
 
     @cached_property
     def doubt(self) -> float | None:
-        """How much of the stiffness half or twice the wall's depth changes; None where there is no such depth."""
+        """How much of the stiffness is not sure; None where nothing tells.
+
+        By two meshes of an elastic wheel; else by half or twice the wall's depth, where there is such a depth.
+        """
+        if self.elastic is not None:
+            return None if self.coarse is None else self.differences["stiffness"]
         if self.pin.shape == "barrel":
             return None
         others = [replace(self.pin, depth=x * self.pin.depth) for x in (0.5, 2.0)]
@@ -116,25 +174,69 @@ class Pair:
             max(abs(press(x, self._pressing).slope[0] / self.at_largest.slope[0] - 1.0) for x in others)
         )
 
+    @cached_property
+    def differences(self) -> dict[str, float]:
+        """Half of what two meshes differ by over an index, relative, and no less than a share of the worst."""
+        assert self.elastic is not None
+        assert self.coarse is not None
+        return differences(self.elastic, self.coarse, self.forces)
+
     @property
     def _pressing(self) -> Array:
-        return self.law.pressed(np.array([self.largest[0] * self.pin.distance]))
+        return self.law.pressed(np.array([self.largest[0] * self.pin.distance]), self._at_largest)
+
+    @property
+    def _at_largest(self) -> Array:
+        return self.forces.indexer.reach(np.array([self.largest[1]]))
 
     @cached_property
     def at_largest(self) -> Pressed:
         """Pin and wall under the largest force of the rigid drive."""
-        return press(self.pin, self._pressing)
+        return self.press(self._pressing, self._at_largest)
+
+
+def presses(pin: Pin, elastic: ElasticPair | None) -> Presses:
+    """Return what presses a pin by angles (n,) at angles (n,) from the wheel's axis."""
+    if elastic is None:
+        return lambda angle, _: press(pin, angle)
+    return lambda angle, reach: press_elastic(elastic, angle, reach)
+
+
+def differences(fine: ElasticPair, coarse: ElasticPair, forces: Forces) -> dict[str, float]:
+    """Return the relative errors of stiffness and largest pressure over an index that two meshes suggest."""
+    half = forces.indexer.half_turn
+    force, at = forces.largest(lambda x: x.pin)
+    t = np.append(half * np.linspace(-1.0, 1.0, PLACES), at)
+    reach = forces.indexer.reach(t)
+    stiff = press_elastic(fine, np.full(len(t), 1e-6), reach)
+    u = abs(force) * fine.pin.distance / stiff.slope if force != 0.0 else np.full(len(t), 1e-6)
+    one, other = (press_elastic(x, u, reach) for x in (fine, coarse))
+    other = press_elastic(coarse, u * one.moment / other.moment, reach)  # under about the same force
+    found = {
+        "stiffness": 0.5 * float(np.abs(one.slope / other.slope - 1.0).max()),
+        "pressure": 0.5 * float(np.abs(one.pressure.max(axis=1) / other.pressure.max(axis=1) - 1.0).max()),
+    }
+    return {name: max(x, LEAST * max(found.values())) for name, x in found.items()}
 
 
 def pairs(
-    scene: IndexerScene, design: Design, slots: Mapping[str, Slot], forces: Mapping[str, Forces]
+    scene: IndexerScene, design: Design, pin: Pin, forces: Mapping[str, Forces], made: Bodies
 ) -> Mapping[str, Pair]:
-    """Return the pairs of all mechanisms: one pin, one law."""
-    pin = pin_of(scene, design, slots["indexer"])
-    largest = max(abs(x.largest(lambda y: y.pin)[0]) for x in forces.values()) * pin.distance
+    """Return the pairs of all mechanisms: one pin, and one law where the wheel is rigid."""
+    largest = {name: abs(x.largest(lambda y: y.pin)[0]) * pin.distance for name, x in forces.items()}
     play = 0.5 * design.drive.pin.play if scene.has("clearance") else 0.0
-    law = law_of(pin, largest, play)
-    return {name: Pair(pin, law, x) for name, x in forces.items()}
+    if made.fine is None:
+        law = law_of(pin, presses(pin, None), None, max(largest.values()), play)
+        return {name: Pair(pin, law, x) for name, x in forces.items()}
+    found = {}
+    for name, x in forces.items():
+        elastic = made.fine[name]
+        half = x.indexer.half_turn
+        reach = x.indexer.reach(np.linspace(-half, half, SAMPLES))
+        ends = float(reach.min()), float(reach.max())
+        law = law_of(pin, presses(pin, elastic), ends, largest[name], play)
+        found[name] = Pair(pin, law, x, elastic, None if made.coarse is None else made.coarse[name])
+    return found
 
 
 def lash(pair: Pair, t: float) -> float:

@@ -10,7 +10,7 @@ from trochoid.scene.drive_indexer import IndexerScene
 
 _GEOMETRY = ("synthesis", "geometry")
 _FORCES = (*_GEOMETRY, "mass", "forces")
-_CONTACT = (*_FORCES, "contact")
+_CONTACT = (*_FORCES, "bodies", "contact")
 _VIBRATION = (*_CONTACT, "vibration")
 
 STAGES_OF: dict[str, tuple[str, ...]] = {
@@ -26,7 +26,8 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "torsional_stiffness": _CONTACT,
     "dynamic_factor": _VIBRATION,
     "residual_vibration": _VIBRATION,
-    "reactions": _FORCES,
+    "natural_frequencies": (*_CONTACT, "modes"),
+    "reactions": (*_FORCES, "reactions"),
     "mass": (*_GEOMETRY, "mass"),
 }
 
@@ -36,16 +37,30 @@ WHY = {
     "geometry": "can it be made: length of slots, walls, hub",
     "mass": "mass and inertia of the wheel",
     "forces": "pin force, mesh force and input torque over an index",
+    "bodies": "slotted wheel and pin as finite elements: meshed, factored, pressed along a slot",
     "contact": "pin and wall of the slot as elastic bodies: pressure and stiffness over an index",
     "vibration": "the elastic wheel over an index and its dwell, marched in steps of its shortest period",
+    "reactions": "loads on teeth, bearings and input over a turn, by model",
+    "modes": "natural frequencies of the output at frozen positions",
 }
 
 
 def plan(scene: IndexerScene) -> Plan:
     """Return what a run would do; raises Infeasible when no pin path serves or the wheel cannot be built."""
+    meshed = scene.has("elastic_contact") and scene.accuracy.model != "rigid_wheel"
     elastic = ", half-spaces and a march in time" if scene.has("elastic_contact") else ""
+    if meshed:
+        elastic = ", finite elements of wheel and pin, a march in time"
+    bodies = 4.0 if meshed else 0.0
+    stages_of = dict(STAGES_OF)
+    if scene.has("elastic_contact") and scene.has("inertia"):
+        stages_of["reactions"] = (*_VIBRATION, "reactions")
     made = planned(
-        scene, WHY, STAGES_OF, {"synthesis": 0.03, "contact": 0.3, "vibration": 2.0}, f"closed forms{elastic}"
+        scene,
+        WHY,
+        stages_of,
+        {"synthesis": 0.03, "bodies": bodies, "contact": 0.7, "vibration": 2.5},
+        f"closed forms{elastic}",
     )
     stages = Stages(scene, Clock())
     stages.design  # noqa: B018 - raises Infeasible with what binds and the nearest swing

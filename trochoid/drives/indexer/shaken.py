@@ -14,9 +14,8 @@ from trochoid.drives.indexer.pin import Pair
 from trochoid.drives.indexer.wheel import WheelMass
 from trochoid.drives.indexer.words import SAME_TIME
 from trochoid.dynamics.indexing import STEPS, Index, Response, respond
-from trochoid.dynamics.indexing_march import Output
-from trochoid.dynamics.pin_law import PinLaw
-from trochoid.fem.pin_slot import Pressed, press
+from trochoid.dynamics.indexing_parts import Output
+from trochoid.fem.pin_slot import Pressed
 from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.indexer import Indexer, motion
 from trochoid.kinematics.types import Array
@@ -73,19 +72,33 @@ class Shaken:
 
     @property
     def at_entry(self) -> float:
-        """Largest pin force in the first natural period over that of the rigid drive's start; nan without one."""
-        first = self.fine.index.time <= 2.0 * math.pi / self.output.frequencies[0]
+        """Largest pin force in the first natural period from the first touch on, over that of the rigid drive's start.
+
+        nan where that start is without force; 0 where the pin never touches.
+        """
+        force, time = np.abs(self.pin_force(self.fine)), self.fine.index.time
         start = abs(float(self.rigid[0]))
-        return (
-            float(np.abs(self.pin_force(self.fine)[first]).max()) / start
-            if start > 1e-9 * self.pair.largest[0]
-            else math.nan
-        )
+        if start <= 1e-9 * self.pair.largest[0]:
+            return math.nan
+        touching = np.flatnonzero(force > 0.0)
+        if not touching.size:
+            return 0.0
+        first = time <= time[touching[0]] + 2.0 * math.pi / self.output.frequencies[0]
+        return float(force[first].max()) / start
+
+    @property
+    def touch(self) -> float:
+        """Time (s) from the start of the index at which the pin first touches its slot; nan if it never does."""
+        touching = np.flatnonzero(self.fine.index.torque != 0.0)
+        return float(self.fine.index.time[touching[0]]) if touching.size else math.nan
 
     @property
     def pressed(self) -> Pressed:
         """Pin and wall under the largest pin force."""
-        return press(self.pair.pin, self.pair.law.pressed(np.array([self.peak[0] * self.pair.pin.distance])))
+        force, at = self.peak
+        reach = self.pair.forces.indexer.reach(np.array([at]))
+        u = self.pair.law.pressed(np.array([force * self.pair.pin.distance]), reach)
+        return self.pair.press(u, reach)
 
     @property
     def amplitude(self) -> tuple[float, float]:
@@ -95,12 +108,25 @@ class Shaken:
         return (one if one > NOTHING * scale else 0.0), abs(one - two)
 
     @property
-    def settling(self) -> float:
-        """Time (s) after the stop from which the output stays within a part of its amplitude of where it ends."""
+    def settling(self) -> float | None:
+        """Time (s) after the stop from which the output stays within a part of its amplitude of where it ends.
+
+        None where it does not within the dwell, or the part of it that was followed.
+        """
         dwell = self.fine.dwell
         away = np.abs(dwell.deviation - self.offset)
         outside = np.flatnonzero(away > SETTLED * self.amplitude[0]) if self.amplitude[0] > 0.0 else away[:0]
-        return float(dwell.time[outside[-1]]) if outside.size else 0.0
+        if not outside.size:
+            return 0.0
+        late = dwell.time[-1] - dwell.time[outside[-1]] < math.pi / self.output.frequencies[0]
+        return None if late and not self.fine.stuck else float(dwell.time[outside[-1]])
+
+    @property
+    def followed(self) -> float:
+        """Part of the dwell that was followed, where the output still swings at the end of it; else 1."""
+        dwell, speed = self.fine.dwell, self.speed
+        rest = 2.0 * (math.pi - self.pair.forces.indexer.half_turn) / speed
+        return 1.0 if self.settling is not None else min(1.0, float(dwell.time[-1]) / rest)
 
     @property
     def offset(self) -> float:
@@ -161,10 +187,9 @@ def lock_of(scene: IndexerScene, pair: Pair) -> float:
     given = scene.drive.wheel.lock_stiffness
     if given is not None:
         return given
-    lever = math.sin(float(pair.forces.indexer.reach(pair.forces.indexer.half_turn)))
-    return lever**2 * float(
-        pair.law.slope(pair.law.pressed(np.array([pair.largest[0] * pair.pin.distance])))[0]
-    )
+    reach = pair.forces.indexer.reach(np.array([pair.forces.indexer.half_turn]))
+    u = pair.law.pressed(np.array([pair.largest[0] * pair.pin.distance]), reach)
+    return float(np.sin(reach[0]) ** 2 * pair.law.slope(u, reach)[0])
 
 
 def _shaken(scene: IndexerScene, wheel: WheelMass, pair: Pair) -> Shaken:
@@ -172,20 +197,14 @@ def _shaken(scene: IndexerScene, wheel: WheelMass, pair: Pair) -> Shaken:
     index = _index(pair.forces.indexer, pair.forces.load.speed)
     for _ in range(TRIES):
         fine = respond(index, output, pair.law)
-        lever = index.sample(fine.index.time)[0]
+        lever = np.sin(index.sample(fine.index.time)[0])
         if float(np.abs(fine.index.torque / lever).max()) <= pair.law.largest:
             return Shaken(pair, output, fine, respond(index, output, pair.law, STEPS // 2))
-        pair = replace(pair, law=_longer(pair))
+        pair = pair.longer(LARGER)
     raise Infeasible(
         f"the pin strikes its slot with more than {pair.law.largest / pair.pin.distance:.3g} N; "
         "give pin.play a smaller value, or operation.input_speed"
     )
-
-
-def _longer(pair: Pair) -> PinLaw:
-    from trochoid.dynamics.pin_law import pin_law
-
-    return pin_law(lambda u: press(pair.pin, u).moment, LARGER * pair.law.top, pair.law.play)
 
 
 def _index(indexer: Indexer, speed: float) -> Index:
@@ -195,6 +214,6 @@ def _index(indexer: Indexer, speed: float) -> Index:
         t = np.clip(time * speed - half, -half, half)
         at = motion(indexer, t)
         velocity = np.maximum(sense * speed * at.velocity, 0.0)  # not less but for rounding
-        return np.sin(indexer.reach(t)), velocity, sense * speed**2 * at.acceleration
+        return indexer.reach(t), velocity, sense * speed**2 * at.acceleration
 
     return Index(2.0 * half / speed, 2.0 * (math.pi - half) / speed, sample)

@@ -9,15 +9,18 @@ from typing import TYPE_CHECKING
 
 from trochoid.clock import Clock
 from trochoid.drives.indexer.design import Design, design
-from trochoid.kinematics.errors import Infeasible
+from trochoid.kinematics.errors import Infeasible, NotConverged
 from trochoid.kinematics.indexer_slot import Slot, slot
 from trochoid.scene.drive_indexer import IndexerScene
 
 if TYPE_CHECKING:
     from trochoid.drives.indexer.forces import Forces
     from trochoid.drives.indexer.measures import Measured
+    from trochoid.drives.indexer.modes import Modes
     from trochoid.drives.indexer.pin import Pair
+    from trochoid.drives.indexer.reactions import Turn
     from trochoid.drives.indexer.shaken import Shaken
+    from trochoid.drives.indexer.wall import Bodies
     from trochoid.drives.indexer.wheel import WheelMass
 
 
@@ -88,13 +91,48 @@ class Stages:
             return {name: forces(indexer, load) for name, indexer in made.mechanisms.items()}
 
     @cached_property
+    def bodies(self) -> Bodies:
+        """Slotted wheels and pins as finite elements, on two mesh levels."""
+        made, loads = self.feasible, self.forces
+        with self.clock.stage("bodies"):
+            from trochoid.drives.indexer.pin import differences, pin_of
+            from trochoid.drives.indexer.wall import Bodies, bodies
+
+            if all(x.largest(lambda y: y.pin)[0] == 0.0 for x in loads.values()):
+                return Bodies(None, None)
+            pin = pin_of(self.scene, made, self.slots["indexer"])
+            return bodies(
+                self.scene,
+                made,
+                self.slots,
+                pin,
+                lambda fine, coarse, name: differences(fine, coarse, loads[name])["stiffness"],
+            )
+
+    @property
     def pairs(self) -> Mapping[str, Pair]:
         """Pin and slot of both mechanisms as elastic pairs."""
-        made, loads = self.feasible, self.forces
-        with self.clock.stage("contact"):
-            from trochoid.drives.indexer.pin import pairs
+        return self._paired[0]
 
-            return pairs(self.scene, made, self.slots, loads)
+    @property
+    def refusal(self) -> str:
+        """Why the wheel counts as rigid although the scene does not say so; empty where it does not."""
+        return self._paired[1]
+
+    @cached_property
+    def _paired(self) -> tuple[Mapping[str, Pair], str]:
+        made, loads, elastic = self.feasible, self.forces, self.bodies
+        with self.clock.stage("contact"):
+            from trochoid.drives.indexer.pin import pairs, pin_of
+            from trochoid.drives.indexer.wall import ELASTIC, Bodies
+
+            pin = pin_of(self.scene, made, self.slots["indexer"])
+            try:
+                return pairs(self.scene, made, pin, loads, elastic), elastic.refusal
+            except NotConverged as fault:
+                if elastic.fine is None or self.scene.accuracy.model == ELASTIC:
+                    raise
+                return pairs(self.scene, made, pin, loads, Bodies(None, None)), str(fault)
 
     @cached_property
     def shaken(self) -> Mapping[str, Shaken]:
@@ -104,3 +142,36 @@ class Stages:
             from trochoid.drives.indexer.shaken import shaken
 
             return shaken(self.scene, wheel, loaded)
+
+    @property
+    def marched(self) -> bool:
+        """Whether elastic contact and inertia are both in the equations, so that there is a response in time."""
+        return self.scene.has("elastic_contact") and self.scene.has("inertia")
+
+    @cached_property
+    def response(self) -> tuple[Mapping[str, Shaken] | None, str]:
+        """The response in time, or None and why there is none."""
+        if not self.marched:
+            return None, ""
+        try:
+            return self.shaken, ""
+        except (NotConverged, Infeasible) as refusal:
+            return None, str(refusal)
+
+    @cached_property
+    def reactions(self) -> Mapping[str, Mapping[str, Turn]]:
+        """Reactions over a turn of each mechanism, rigid, and elastic where there is a march."""
+        found, (responses, _) = self.forces, self.response
+        with self.clock.stage("reactions"):
+            from trochoid.drives.indexer.reactions import shafts, turns
+
+            return turns(found, shafts(self.scene.drive), responses)
+
+    @cached_property
+    def modes(self) -> Mapping[str, Modes]:
+        """Natural frequencies of the output at frozen positions."""
+        loaded, wheel = self.pairs, self.wheel
+        with self.clock.stage("modes"):
+            from trochoid.drives.indexer.modes import modes
+
+            return modes(self.scene, wheel, loaded)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from trochoid.drives.exact import ARCMIN, RPM
-from trochoid.drives.mesh_error import Pair, scalar_error
+from trochoid.drives.mesh_error import Pair, sampling_error, scalar_error
 from trochoid.drives.planetary.stages import Stages
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Parts, Quantity
@@ -30,8 +30,11 @@ def number(s: Stages, pair: Pair[float], unit: str) -> Quantity:
 
 
 def over_pitch(s: Stages, get: Callable[[Series], float], unit: str) -> Quantity:
-    """Return a number of the contacts over a pitch."""
-    return number(s, Pair(s.contact.fine, s.contact.coarse).map(get), unit)
+    """Return a number of the contacts over a pitch; its error is that of the mesh and of few positions."""
+    found = number(s, Pair(s.contact.fine, s.contact.coarse).map(get), unit)
+    if found.error is None:
+        return found
+    return replace(found, error=found.error + sampling_error(get, s.contact.fine, s.contact.fine.thinned))
 
 
 def load_sharing(s: Stages) -> Quantity:
@@ -55,11 +58,19 @@ def load_sharing(s: Stages) -> Quantity:
     note = "overload: largest torque of a planet over an even share, K_γ"
     if s.scene.drive.lead is not None:
         parts["face_load_factor"] = {
-            "sun_and_planet": number(s, s.faces.map(lambda f: float(f.outer.factor.max())), ""),
-            "planet_and_ring": number(s, s.faces.map(lambda f: float(f.inner.factor.max())), ""),
+            "sun_and_planet": _face(s, s.faces.map(lambda f: float(f.outer.factor.max()))),
+            "planet_and_ring": _face(s, s.faces.map(lambda f: float(f.inner.factor.max()))),
         }
         note += "; face load factor: largest over mean load of a slice of the face width, K_Hβ"
     return Quantity(parts=parts, note=note)
+
+
+def _face(s: Stages, factor: Pair[float]) -> Quantity:
+    """Return a face load factor; its error is the whole difference from half of the slices on the coarser mesh, as the
+    load of a slice is a mean over its width.
+    """
+    error = None if factor.coarse is None else abs(factor.fine - factor.coarse)
+    return Quantity(factor.fine, "", error, s.rung)
 
 
 def _touching(touches: Touches) -> float:

@@ -25,14 +25,16 @@ class Faces:
     places: Array
 
 
-def faces(design: Design, level: Level, load: Load, positions: int) -> Faces:
-    """Solve both meshes under an even share of the torque, centres held. Raises NotConverged, Infeasible."""
+def faces(design: Design, level: Level, load: Load, positions: int, coarser: bool = False) -> Faces:
+    """Solve both meshes under an even share of the torque, centres held; `coarser`: with half of the slices.
+
+    Raises NotConverged, Infeasible.
+    """
     table = design.drive.lead
     if table is None:
         raise TrochoidError("the load over the face width needs the scene's [drive.lead] table")
-    leads = [
-        Lead(x.misalignment, x.crown, table.slices) for x in (table.sun_and_planet, table.planet_and_ring)
-    ]
+    count = max(2, table.slices // 2) if coarser else table.slices
+    leads = [Lead(x.misalignment, x.crown, count) for x in (table.sun_and_planet, table.planet_and_ring)]
     found = [
         solve_face(mating, base_pitch(mating, min(positions, POSITIONS)), lead)
         for mating, lead in zip(matings(design, level, load), leads, strict=True)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from trochoid.drives.planetary.design import Design
 from trochoid.fem.assembly import Contact, Touch
 from trochoid.fem.moving import softness, wandering
 from trochoid.fem.position import solve_positions
-from trochoid.fem.rows import joined
+from trochoid.fem.rows import joined, taken
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.train import Speeds
 from trochoid.kinematics.types import Array, IntArray, frozen
@@ -71,6 +71,12 @@ class Series:
     wandering: Array
     imbalance: float
     penetration: float
+
+    def thinned(self, stride: int) -> Iterator[Series]:
+        """Yield every so-manieth position, from each of the first on; nothing where there are too few."""
+        at = replace(self, places=None)  # type: ignore[arg-type]  # the only array without an axis of positions
+        for start in range(stride) if len(self.angle) >= stride else ():
+            yield replace(taken(at, slice(start, None, stride)), places=self.places)
 
     def moved(self, member: str) -> Array:
         """Return x, y and rotation (n, 3) of "sun", "ring", "carrier" in m and rad."""

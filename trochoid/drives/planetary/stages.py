@@ -265,17 +265,16 @@ class Stages:
 
     @cached_property
     def faces(self) -> Pair[Faces]:
-        """Load over the face width of both meshes of one planet."""
+        """Load over the face width of both meshes of one planet; on the coarser level with half of the slices."""
         solved, load = self.contact, self.load
         with self.clock.stage("face"):
             from trochoid.drives.planetary.face import faces
 
-            def made(level: Level) -> Faces:
-                return faces(self.feasible, level, load, self.scene.ask.positions)
+            def made(level: Level, coarser: bool) -> Faces:
+                return faces(self.feasible, level, load, self.scene.ask.positions, coarser)
 
-            return Pair(
-                made(solved.level), None if solved.coarse_level is None else made(solved.coarse_level)
-            )
+            coarse = None if solved.coarse_level is None else made(solved.coarse_level, True)
+            return Pair(made(solved.level, False), coarse)
 
     @cached_property
     def moving(self) -> Pair[Moving]:

@@ -19,6 +19,7 @@ QUANTITIES = answers(
             "lost_motion",
             "bearing_loads",
         ),
+        "answers_bearings": ("bearing_stiffness", "bearing_life"),
         "answers_modes": ("natural_frequencies",),
     },
 )

@@ -67,7 +67,15 @@ def _share(series: Series) -> Array:
 
 def contact_force_max(s: Stages) -> Quantity:
     """Largest force of a roller on a flank."""
-    return over_pitch(s, lambda x: float(x.total.max()), "N")
+    answer = over_pitch(s, lambda x: float(x.total.max()), "N")
+    return replace(answer, note=_at_speed(s, lambda x: float(x.total.max()), "N"))
+
+
+def _at_speed(s: Stages, get: Callable[[Series], float], unit: str) -> str | None:
+    """Say what the inertia of the satellite makes of a number where the bearings let it act on the teeth."""
+    if s.running is None:
+        return None
+    return f"under the output torque alone; with the satellite's inertia at speed {get(s.running):.4g} {unit}"
 
 
 def contact_pressure_max(s: Stages) -> Quantity:
@@ -75,7 +83,9 @@ def contact_pressure_max(s: Stages) -> Quantity:
     answer = over_pitch(s, lambda x: 1e-6 * float(x.pressure.max()), "MPa")
     if s.contact is None:
         return answer
-    return replace(answer, note=EDGE if s.contact.fine.edge.any() else None)
+    said = _at_speed(s, lambda x: 1e-6 * float(x.pressure.max()), "MPa")
+    edge = EDGE if s.contact.fine.edge.any() else None
+    return replace(answer, note="; ".join(filter(None, (edge, said))) or None)
 
 
 def mesh_stiffness(s: Stages) -> Quantity:

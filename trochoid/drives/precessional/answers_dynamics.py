@@ -7,11 +7,13 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from trochoid.drives.casing import casing_mass, is_elastic
 from trochoid.drives.exact import exact
+from trochoid.drives.mesh_error import scalar_error
 from trochoid.drives.precessional.stages import Stages
 from trochoid.drives.precessional.turn import FORCES, MODELS, MOMENTS
-from trochoid.drives.vibration import velocity, zone_answer
-from trochoid.dynamics.vibration import Vibration
+from trochoid.drives.vibration import CasingVibration
+from trochoid.drives.vibration_answers import casing_note, velocity_parts, zone_answer
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Quantity
 
@@ -115,23 +117,17 @@ def _one(value: float, unit: str, model: str = "exact") -> Quantity:
 
 
 def vibration_velocity(s: Stages) -> Quantity:
-    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; the worst one of other models beside it."""
+    """Velocity of the casing, rms 10–1000 Hz, at each point by direction; without each effect the worst beside it."""
     found = s.vibration
-    best = found.models[found.best]
-    parts: dict[str, Mapping[str, Quantity]] = {}
-    for i, point in enumerate(best.points):
-        entries = {axis: _velocity(best, i, j, found.best) for j, axis in enumerate("xyz")}
-        entries["worst"] = _velocity(best, i, model=found.best)
-        others = [model for model in found.models if model != found.best]
-        entries |= {f"worst_{model}": _velocity(found.models[model], i, model=model) for model in others}
-        parts[point.name] = entries
-    return Quantity(
-        parts=parts, note="by the vector sum of all reactions on the casing; all its lines are resolved"
-    )
 
+    def made(get: Callable[[CasingVibration], float], unit: str, model: str) -> Quantity:
+        coarse = s.vibration_levels.coarse
+        error = None if coarse is None else scalar_error(get(found), get(coarse))
+        return Quantity(get(found), unit, error, model)
 
-def _velocity(found: Vibration, point: int, axis: int | None = None, model: str = "rigid") -> Quantity:
-    return Quantity(velocity(found, point, axis), "mm/s", None, model)
+    best = "rigid" if s.yielding is None else "elastic"
+    said = f"by the vector sum of all reactions on the casing; all its lines are resolved{casing_note(found)}"
+    return Quantity(parts=velocity_parts(found, made, best), note=said)
 
 
 def vibration_zone(s: Stages) -> Quantity:
@@ -147,7 +143,7 @@ def mass(s: Stages) -> Quantity:
         "input_shaft": d.input_shaft.mass,
         "counterweight": 0.0 if d.counterweight is None else d.counterweight.mass,
         "output_shaft": 0.0 if d.output_shaft is None else d.output_shaft.mass,
-        "casing": 0.0 if s.scene.casing is None else s.scene.casing.mass,
+        "casing": casing_mass(s.scene, lambda: s.casing_body)[0],
     }
     values = {name: (value, "kg") for name, value in members.items()}
     values["total"] = (math.fsum(members.values()), "kg")
@@ -155,4 +151,6 @@ def mass(s: Stages) -> Quantity:
     if torque > 0.0:
         values["specific"] = (values["total"][0] / torque, "kg/(N*m)")
     note = "as the scene gives them" if torque > 0.0 else "specific mass needs a torque above zero"
+    if is_elastic(s.scene):
+        note += "; the casing's is that of its meshed body"
     return Quantity(parts=exact(values).parts, note=note)

@@ -2,34 +2,41 @@
 
 A joint holds some of the six relative motions (x, y, z, rotations about them) of two members by springs, some
 rigidly; the others are free, as in the rigid model, so that both have the same reactions where nothing moves.
-Rolling bearings are taken at the mean reaction of the rigid drive, which stands still in the frame of the shaft.
+Rolling bearings are taken at the mean reaction, which stands still in the frame of the shaft.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from trochoid.drives.precessional.design import Design
 from trochoid.drives.precessional.reactions import Reactions
-from trochoid.fem.rolling import Rolling, about
-from trochoid.kinematics.errors import Infeasible
+from trochoid.drives.rolling import Held, held, sized
+from trochoid.drives.rolling_seat import SeatLevels, seat_levels
+from trochoid.fem.bearing_duty import fail_if_loose
+from trochoid.fem.rolling import about
 from trochoid.kinematics.types import Array, frozen
-from trochoid.scene.drive_precessional import Bearing, Support
+from trochoid.scene.drive_precessional import Bearing, OutputBearing, Support
+from trochoid.scene.rolling import RollingTable
 
 ACROSS, ALONG, TILTS = (0, 1), 2, (3, 4)
-TURNS = 4  # places of the elements over one pitch, whose stiffness is averaged
-ANGULAR, TAPERED = float(np.radians(25.0)), float(np.radians(14.0))  # contact angles where none is given
+ADVICE = (
+    "under the mean inertia load alone; give bearing_{}.radial_load (what it carries besides), an axial_load or a "
+    "smaller clearance, or its stiffnesses"
+)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Joint:
-    """`stiffness` (6, 6) of a joint, N/m, N, N·m/rad, and the motions that it holds `rigid`ly."""
+    """`stiffness` (6, 6) of a joint, N/m, N, N·m/rad, the motions that it holds `rigid`ly, its rolling `bearings`."""
 
     name: str
     stiffness: Array
     rigid: tuple[int, ...]
+    bearings: tuple[Held, ...] = ()
 
     @property
     def yields(self) -> bool:
@@ -38,7 +45,7 @@ class Joint:
 
     def times(self, factor: float) -> Joint:
         """Return the joint with springs that many times as stiff."""
-        return Joint(self.name, frozen(factor * self.stiffness), self.rigid)
+        return Joint(self.name, frozen(factor * self.stiffness), self.rigid, self.bearings)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +61,14 @@ class Joints:
     c: Joint | None
 
     @property
+    def all(self) -> tuple[Joint, ...]:
+        """A, B, O, and C where it yields."""
+        return (self.a, self.b, self.o) if self.c is None else (self.a, self.b, self.o, self.c)
+
+    @property
     def yields(self) -> bool:
         """Whether any joint does."""
-        return any(joint.yields for joint in (self.a, self.b, self.o, self.c) if joint is not None)
+        return any(joint.yields for joint in self.all)
 
     def times(self, factor: float) -> Joints:
         """Return the joints with all springs that many times as stiff."""
@@ -68,15 +80,45 @@ class Joints:
         )
 
 
-def joints(design: Design, rigid: Reactions) -> Joints:
-    """Read the joints from the scene, rolling bearings under the mean of the `rigid` reactions over a turn.
+@dataclass(frozen=True, eq=False, slots=True)
+class Carried:
+    """Forces (m, 2) N and moments (m, 2) N·m from shaft to seat of A, B, C, in the frame of the input shaft."""
+
+    a: Array
+    b: Array
+    b_moment: Array
+    c: Array
+
+    @classmethod
+    def by(cls, found: Reactions) -> Carried:
+        """Read them from reactions at m angles."""
+        return cls(
+            found.joint_a[:, :2],
+            -found.support[:, :2],
+            -found.support_moment[:, :2],
+            -(found.joint_o if found.output is None else found.output)[:, :2],
+        )
+
+    @property
+    def mean(self) -> Carried:
+        """Their mean alone (1, 2)."""
+        return Carried(*(x.mean(axis=0, keepdims=True) for x in (self.a, self.b, self.b_moment, self.c)))
+
+
+def seats(design: Design) -> dict[str, SeatLevels | None]:
+    """Return the flexible seats of A, B and C."""
+    d, materials = design.scene.drive, design.scene.materials
+    tables = {"A": d.bearing_a, "B": d.bearing_b, "C": d.bearing_c}
+    return {name: None if x is None else seat_levels(x, materials) for name, x in tables.items()}
+
+
+def joints(design: Design, loads: Carried, seated: Mapping[str, SeatLevels | None]) -> Joints:
+    """Read the joints from the scene, rolling bearings in their `seats` under the mean of `loads` over a turn.
 
     Raises Infeasible for a bearing that cannot be built or loaded, or that resists nothing.
     """
-    d = design.scene.drive
+    d, at = design.scene.drive, loads.mean
     none = np.zeros(2)
-    force_a, force_b = rigid.joint_a.mean(axis=0)[:2], -rigid.support.mean(axis=0)[:2]
-    moment_b = -rigid.support_moment.mean(axis=0)[:2]
     springs = np.zeros((6, 6))
     o, c = Joint("O", springs, ACROSS), None
     if d.joint_o is not None:
@@ -84,12 +126,33 @@ def joints(design: Design, rigid: Reactions) -> Joints:
         back = d.joint_o.bearing_stiffness
         # the output shaft turns evenly and cannot tilt: with its mass goes its motion across z alone
         c = None if back is None else Joint("C", _diagonal({0: back, 1: back}), (2, 3, 4, 5))
+        if d.bearing_c is not None:
+            c = _behind(design, d.bearing_c, at.c, back, seated.get("C"))
+    turning = speeds(design)
     return Joints(
-        _joint("A", d.bearing_a, force_a, none, tilts=False),
-        _joint("B", d.bearing_b, force_b, moment_b, tilts=True),
+        _joint("A", d.bearing_a, at.a[0], none, False, seated.get("A"), turning["A"]),
+        _joint("B", d.bearing_b, at.b[0], at.b_moment[0], True, seated.get("B"), turning["B"]),
         o,
         c,
     )
+
+
+def speeds(design: Design) -> dict[str, tuple[float, float]]:
+    """Return the speeds (rad/s) of the inner and the outer ring of A, B and C about their axis."""
+    d, shaft = design.scene.drive, design.speed
+    ratio = d.z_wheel / d.z_satellite
+    return {"A": (shaft, shaft * (1.0 - ratio)), "B": (shaft, 0.0), "C": (shaft * (1.0 - ratio), 0.0)}
+
+
+def _behind(
+    design: Design, table: OutputBearing, force: Array, given: float | None, seat: SeatLevels | None
+) -> Joint:
+    """Return the joint C, whose bearings share the load."""
+    found = held("bearing C", table, force / table.number, seat, speeds(design)["C"])
+    matrix = np.zeros((6, 6))
+    matrix[:2, :2] = table.number * found.mean[:2, :2]
+    _replaced(matrix, ACROSS, given)
+    return Joint("C", frozen(matrix), (2, 3, 4, 5), (found,))
 
 
 def _diagonal(entries: dict[int, float]) -> Array:
@@ -99,23 +162,34 @@ def _diagonal(entries: dict[int, float]) -> Array:
     return frozen(matrix)
 
 
-def _joint(name: str, table: Bearing | None, force: Array, moment: Array, tilts: bool) -> Joint:
+def _joint(
+    name: str,
+    table: Bearing | None,
+    force: Array,
+    moment: Array,
+    tilts: bool,
+    seat: SeatLevels | None = None,
+    speed: tuple[float, float] = (0.0, 0.0),
+) -> Joint:
     if table is None:
         return Joint(name, np.zeros((6, 6)), (*ACROSS, ALONG, *(TILTS if tilts else ())))
     axial = table.axial_stiffness is not None or (table.kind is not None and table.axial_load > 0.0)
     tilt = table.tilt_stiffness if isinstance(table, Support) else None
     tilting = tilts and (table.kind is not None or tilt is not None)
     sprung = [*ACROSS, *((ALONG,) if axial else ()), *(TILTS if tilting else ())]
-    matrix = np.zeros((6, 6))
+    matrix, found = np.zeros((6, 6)), tuple[Held, ...]()
     if table.kind is not None:
-        found, lever = rolling_stiffness(name, table, force, moment, tilts)
-        matrix[np.ix_(sprung, sprung)] = found[np.ix_(sprung, sprung)]
-        _fail_if_loose(name, matrix[np.ix_(sprung, sprung)], lever, sprung)
+        loads = np.array([[*force, 0.0, *moment]])
+        found = bearings_of(name, table, loads, tilts, seat, speed)
+        whole, lever = combined(table, found)
+        matrix[np.ix_(sprung, sprung)] = whole[np.ix_(sprung, sprung)]
+        unit = np.array([lever if i in TILTS else 1.0 for i in sprung])
+        fail_if_loose(f"bearing {name}", matrix[np.ix_(sprung, sprung)], unit, ADVICE.format(name.lower()))
     _replaced(matrix, ACROSS, table.radial_stiffness)
     _replaced(matrix, (ALONG,), table.axial_stiffness)
     _replaced(matrix, TILTS, tilt)
-    held = (*ACROSS, ALONG, *(TILTS if tilts else ()))
-    return Joint(name, frozen(matrix), tuple(i for i in held if i not in sprung))
+    everything = (*ACROSS, ALONG, *(TILTS if tilts else ()))
+    return Joint(name, frozen(matrix), tuple(i for i in everything if i not in sprung), found)
 
 
 def _replaced(matrix: Array, places: tuple[int, ...], value: float | None) -> None:
@@ -127,94 +201,45 @@ def _replaced(matrix: Array, places: tuple[int, ...], value: float | None) -> No
         matrix[i, i] = value
 
 
-def rolling_stiffness(
-    name: str, table: Bearing, force: Array, moment: Array, tilts: bool
-) -> tuple[Array, float]:
-    """Return the stiffness (5, 5) on x, y, z and both tilts of a joint's rolling bearings, and their lever in m.
+def bearings_of(
+    name: str,
+    table: RollingTable,
+    loads: Array,
+    tilts: bool,
+    seat: SeatLevels | None,
+    speed: tuple[float, float],
+) -> tuple[Held, ...]:
+    """Return the one or two rolling bearings of a joint under loads (m, 5) from shaft to seat, N and N·m.
 
-    `force` (2,) N and `moment` (2,) N·m go from shaft to seat; `radial_load` takes the place of their size.
+    `radial_load` takes the place of the force's size, and moments grow with it.
     """
-    size = float(np.hypot(*force))
-    if table.radial_load is not None:
-        direction = force / size if size > 0.0 else np.array([0.0, 1.0])
-        moment = moment * (table.radial_load / size if size > 0.0 else 0.0)
-        force = direction * table.radial_load
-    bearing = rolling(table)
-    spread = table.spread if isinstance(table, Support) else 0.0
+    said, spread = f"bearing {name}", spread_of(table)
     if spread == 0.0:
-        load = np.array([*force, table.axial_load, *moment])
-        return _mean_stiffness(bearing, table, load, tilts), bearing.lever
-    whole = np.zeros((5, 5))
+        return (held(said, table, loads, seat, speed, upright=not tilts),)
+    whole = sized(table, loads)
+    push, moment = whole[:, :2], whole[:, 3:]
+    alone = table.model_copy(update={"radial_load": None})
+    found = []
     for sign in (1.0, -1.0):  # a pair of like bearings carries a moment as a couple of forces
-        couple = sign * np.array([moment[1], -moment[0]]) / spread
-        load = np.array([*(0.5 * force + couple), table.axial_load, 0.0, 0.0])
-        whole += about(_mean_stiffness(bearing, table, load, tilts), -0.5 * sign * spread)
-    return whole, max(bearing.lever, 0.5 * spread)
+        couple = sign * np.stack([moment[:, 1], -moment[:, 0]], axis=1) / spread
+        one = held(said, alone, 0.5 * push + couple, seat, speed, upright=not tilts)
+        found.append(replace(one, table=table))
+    return tuple(found)
 
 
-def rolling(table: Bearing) -> Rolling:
-    """Return the rolling bearing of a table: assumed from its boundary dimensions, with what is given besides."""
-    from trochoid.fem.rolling_assumed import (
-        assumed_ball_bearing,
-        assumed_needle_bearing,
-        assumed_roller_bearing,
-        assumed_tapered_bearing,
-    )
-    from trochoid.fem.rolling_ball import BallBearing
-    from trochoid.fem.rolling_roller import RollerRow, logarithmic
-
-    sizes = (table.bore or 0.0, table.outside or 0.0, table.width or 0.0)
-    made: BallBearing | RollerRow
-    if table.kind in ("deep_groove", "angular_contact"):
-        angle = 0.0 if table.kind == "deep_groove" else (table.contact_angle or ANGULAR)
-        made = assumed_ball_bearing(*sizes, contact_angle=angle, clearance=table.clearance)
-        ball = table.element_diameter or made.ball_diameter
-        ratio = ball / made.ball_diameter
-        return replace(
-            made,
-            balls=table.elements or made.balls,
-            ball_diameter=ball,
-            inner_groove_radius=ratio * made.inner_groove_radius,
-            outer_groove_radius=ratio * made.outer_groove_radius,
-        )
-    if table.kind == "tapered":
-        made = assumed_tapered_bearing(*sizes, contact_angle=table.contact_angle or TAPERED)
-    elif table.kind == "needle":
-        made = assumed_needle_bearing(*sizes, clearance=table.clearance)
-    else:
-        made = assumed_roller_bearing(*sizes, clearance=table.clearance)
-    diameter, length = (
-        table.element_diameter or made.roller_diameter,
-        table.element_length or made.length,
-    )
-    given = (diameter, length) != (made.roller_diameter, made.length)
-    return replace(
-        made,
-        rollers=table.elements or made.rollers,
-        roller_diameter=diameter,
-        length=length,
-        drop=logarithmic(diameter, length) if given else made.drop,
-    )
+def spread_of(table: RollingTable) -> float:
+    """Return the distance of the two bearings of a table, 0 for a single one, m."""
+    return table.spread if isinstance(table, Support) else 0.0
 
 
-def _mean_stiffness(bearing: Rolling, table: Bearing, load: Array, tilts: bool) -> Array:
-    """Return the mean stiffness (5, 5) over the places that the elements take as they go round."""
-    from trochoid.fem.rolling_equilibrium import solve
+def combined(table: RollingTable, found: tuple[Held, ...]) -> tuple[Array, float]:
+    """Return the stiffness (5, 5) of a joint's rolling bearings on x, y, z and both tilts, and their lever in m."""
+    from trochoid.drives.rolling import rolling
 
-    held = {} if tilts else {"tilt_x": 0.0, "tilt_y": 0.0}
-    if table.kind in ("cylindrical", "needle"):
-        held["z"] = 0.0
-    count = getattr(bearing, "balls", 0) or getattr(bearing, "rollers", 0)
-    turns = 2.0 * np.pi / count * np.arange(TURNS) / TURNS
-    return np.asarray(np.mean([solve(bearing, load, held, turn).stiffness for turn in turns], axis=0))
-
-
-def _fail_if_loose(name: str, matrix: Array, lever: float, sprung: list[int]) -> None:
-    unit = np.array([lever if i in TILTS else 1.0 for i in sprung])
-    values = np.linalg.eigvalsh(matrix / np.outer(unit, unit))
-    if values[0] <= 1e-9 * max(values[-1], 1e-300):
-        raise Infeasible(
-            f"bearing {name} resists nothing in one of its directions: under the mean inertia load too few elements "
-            f"carry; give bearing_{name.lower()}.radial_load (what it carries besides), an axial_load or a smaller "
-            f"clearance, or its stiffnesses"
-        )
+    lever, spread = rolling(table).lever, spread_of(table)
+    if len(found) == 1:
+        return found[0].mean, lever
+    whole = np.zeros((5, 5))
+    for sign, one in zip((1.0, -1.0), found, strict=True):
+        whole += about(one.mean, -0.5 * sign * spread)
+    return whole, max(lever, 0.5 * spread)

@@ -29,16 +29,42 @@ def casing_load(found: Reactions) -> Wrench:
     """
     fixed = rotation(2, found.crank)
     points = np.array([[0.0, 0.0, found.drive.support], [0.0, 0.0, 0.0]])
-    output = found.joint_o if found.output is None else found.output
-    forces = -np.stack((found.support, output + found.mesh), axis=1)
-    axial = np.stack((0.0 * found.torque, 0.0 * found.torque, found.torque), axis=-1)
-    moments = -(found.support_moment + found.mesh_couple + axial)
+    forces = -np.stack((found.support, _output(found) + found.mesh), axis=1)
+    moments = -(found.support_moment + found.mesh_couple + _axial(found))
     return total(
         [
             wrench(points, np.stack([turn(fixed, forces[:, i]) for i in (0, 1)], axis=1)),
             couple(turn(fixed, moments)),
         ]
     )
+
+
+def places(found: Reactions) -> dict[str, Wrench]:
+    """Return what the casing feels in the fixed frame, by the names of the places (needs.SEATS_OF): their sum is
+    `casing_load`.
+    """
+    fixed = rotation(2, found.crank)
+    support = np.array([0.0, 0.0, found.drive.support])
+
+    def pressed(force: Array, moment: Array, at: Array) -> Wrench:
+        load = wrench(at[None], turn(fixed, -force)[:, None])
+        return total([load, couple(turn(fixed, -moment))])
+
+    nothing, origin = 0.0 * found.support, np.zeros(3)
+    return {
+        "fixed wheel": pressed(found.mesh, found.mesh_couple, origin),
+        "bearing B": pressed(found.support, found.support_moment, support),
+        "bearings C": pressed(_output(found), nothing, origin),
+        "motor": pressed(nothing, _axial(found), origin),
+    }
+
+
+def _output(found: Reactions) -> Array:
+    return found.joint_o if found.output is None else found.output
+
+
+def _axial(found: Reactions) -> Array:
+    return np.stack((0.0 * found.torque, 0.0 * found.torque, found.torque), axis=-1)
 
 
 def inertia_load(drive: PrecessionalDrive, crank: Array, speed: float, model: Model = "exact") -> Wrench:

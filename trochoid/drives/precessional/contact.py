@@ -14,15 +14,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from trochoid.drives.precessional.design import Design
-from trochoid.drives.precessional.rim import crowning, play, reach, toothed
+from trochoid.drives.precessional.overload import explained
+from trochoid.drives.precessional.rim import crowning, lean, play, reach, toothed
 from trochoid.drives.precessional.teeth import Level
+from trochoid.fem.cone_assembly import ConeAssembly, ConeContact
 from trochoid.fem.cone_pair import crown, roller_pair
-from trochoid.fem.cone_position import ConeAssembly, ConeContact, solve_cone
+from trochoid.fem.cone_position import solve_cone
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.sphere_tooth import SphereTooth
 from trochoid.kinematics.spherical import rotation, turn
 from trochoid.kinematics.types import Array, BoolArray, frozen
 
+TRIAL = 25, 400  # steps and pivots that a load may take which is only tried: enough below the limit
 HELD = 1e4  # E R³: what is held rigidly is so much stiffer than teeth, which have a tenth of E R³ at the most
 
 
@@ -35,7 +38,8 @@ class Series:
     `motion` (n, 3) rotation of the satellite, rad; `mesh` (n, 3, 3) stiffness of the teeth, N·m/rad, `held` (3, 3)
     that of what holds the satellite's axis.  The joint O puts the moment −`torque`·`out` (3,) on the satellite, which
     turns the output by its rotation along `out`.  `on_satellite` is +1 where pins are on it: the sign of n F on it.
-    `residual` (n,) is the worst overlap over the largest approach.
+    `residual` (n,) is the worst overlap over the largest approach, `breadth` (n,) the largest half width of a contact
+    over its relative radius of curvature, which Hertz takes as small.
     """
 
     crank: Array
@@ -53,6 +57,7 @@ class Series:
     out: Array
     on_satellite: int
     residual: Array
+    breadth: Array
 
     @property
     def total(self) -> Array:
@@ -114,11 +119,17 @@ def output_unit(design: Design) -> Array:
 
 
 def solve_series(
-    design: Design, level: Level, torque: float, crank: Array, tilt_stiffness: float | None = None
+    design: Design,
+    level: Level,
+    torque: float,
+    crank: Array,
+    tilt_stiffness: float | None = None,
+    moment: Array | None = None,
 ) -> Series:
     """Solve the positions; `tilt_stiffness` (N·m/rad) of the satellite's axis about O, None: held rigidly.
 
-    A torque below 0 drives the output on.  Raises NotConverged.
+    A torque below 0 drives the output on.  `moment` (3,) in N·m about O acts on the satellite besides, steady in the
+    crank's frame: that of its inertia is `inertia_moment`.  Raises NotConverged.
     """
     (tooth, _), rim = toothed(design), level.rim
     compliance = rim.compliance
@@ -128,7 +139,7 @@ def solve_series(
     held = stiff * (np.eye(3) - np.outer(n, n))
     moves = _moves(tooth, turned)
     sign = -1 if tooth.pins_on == "ring" else 1  # of the force along the contact's normal on the satellite
-    load = turn(turned, sign * torque * out)
+    load = turn(turned, sign * (torque * out - (0.0 if moment is None else moment)))
     slices = compliance.slices
     pair = roller_pair(
         tooth,
@@ -138,10 +149,20 @@ def solve_series(
         clearance=play(design),
         relief=crown(slices, crowning(design)),
         edges=rim.shape.edges,
+        lean=lean(design),
     )
     springs = stiff * np.diag([1.0, 1.0, 0.0])  # in the satellite's frame, or a frame with its axis
     assembly = ConeAssembly(compliance, pair, springs, turn(np.swapaxes(moves, 1, 2), load), level.roller)
-    found = [solve_cone(assembly)] if tooth.pins_on == "ring" else _one_by_one(assembly, moves)
+    try:
+        found = [solve_cone(assembly)] if tooth.pins_on == "ring" else _one_by_one(assembly, moves)
+    except NotConverged as fault:
+        row = 0 if fault.row is None else fault.row
+        one = _alone(assembly, moves, row)
+
+        def tried(share: float) -> ConeContact:
+            return solve_cone(replace(one, load=share * one.load), steps=TRIAL[0], pivots=TRIAL[1])
+
+        raise explained(design, torque, crank[row], fault, tried) from fault
     back = np.swapaxes(turned, 1, 2)
 
     def joined(name: str) -> Array:
@@ -169,7 +190,20 @@ def solve_series(
         out=out,
         on_satellite=sign,
         residual=joined("residual"),
+        breadth=np.concatenate([_breadth(tooth, each, slices.middle) for each in found]),
     )
+
+
+def inertia_moment(design: Design) -> Array:
+    """Return the mean moment (3,) of the satellite's inertia about O, N·m, in the crank's frame of the contacts.
+
+    ε and ω are those of the rigid drive; a satellite with uneven moments of inertia shakes besides, about this mean.
+    """
+    from trochoid.drives.precessional.reactions import inertia_couple
+
+    turns = 2.0 * math.pi * np.arange(8) / 8 / float(2 * design.nutation.tooth_ratio)
+    x, y, z = inertia_couple(design.mechanism, turns, design.speed).mean(axis=0)
+    return np.array([y, -x, z])  # there y points to the side of A, here x
 
 
 def _rigid(design: Design) -> float:
@@ -188,15 +222,28 @@ def _moves(tooth: SphereTooth, turned: Array) -> Array:
 def _one_by_one(assembly: ConeAssembly, moves: Array) -> list[ConeContact]:
     """Solve positions whose motions differ."""
     found = []
-    for i, move in enumerate(moves):
-        rows = np.array([i])
-        pair = replace(assembly.pair.rows(rows), moves=np.concatenate([move, np.zeros((3, 3))]))
-        one = replace(assembly, pair=pair, load=assembly.load[rows])
+    for i in range(len(moves)):
         try:
-            found.append(solve_cone(one))
+            found.append(solve_cone(_alone(assembly, moves, i)))
         except NotConverged as fault:
             raise NotConverged(str(fault), i) from fault
     return found
+
+
+def _alone(assembly: ConeAssembly, moves: Array, row: int) -> ConeAssembly:
+    """Return one position, with motions of its own."""
+    rows = np.array([row])
+    pair = replace(assembly.pair.rows(rows), moves=np.concatenate([moves[row], np.zeros((3, 3))]))
+    return replace(assembly, pair=pair, load=assembly.load[rows])
+
+
+def _breadth(tooth: SphereTooth, found: ConeContact, places: Array) -> Array:
+    """Return the largest half width (n,) over the least relative radius of curvature within it."""
+    half = (found.half_width / places).max(axis=-1)
+    reach = half / np.maximum(tooth.speed(found.state.parameter), 1e-300)
+    within = found.state.parameter + np.linspace(-1.0, 1.0, 5)[:, None, None] * reach
+    bend = found.state.bend + tooth.curvature(within).max(axis=0) - tooth.curvature(found.state.parameter)
+    return np.asarray(np.where(found.state.off, 0.0, half * bend).max(axis=1))
 
 
 def _edges(found: ConeContact, short: bool) -> BoolArray:

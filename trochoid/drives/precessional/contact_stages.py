@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from trochoid.drives.choosing import choose
-from trochoid.drives.precessional.contact import Series, pitch_angles, solve_series
+from trochoid.drives.precessional.contact import Series, inertia_moment, pitch_angles, solve_series
 from trochoid.drives.precessional.estimate import differences, worst_error
 from trochoid.drives.precessional.teeth import LEAST, Level, build_level
 from trochoid.kinematics.errors import SceneError
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 MODEL = "slices"
 LEVELS = (8, 16, 32)  # facets of a tooth
+UNIT = "facets per tooth"
 SLIGHT = 0.03  # of the output torque: where lost motion is read
 PLAY_POSITIONS = 24  # of a pitch, at the most, for lost motion
 
@@ -113,7 +114,9 @@ class Teeth:
             return found[facets]
 
         tolerance = scene.accuracy.tolerance if scene.accuracy.facets_per_lobe is None else float("inf")
-        coarse, fine = choose(tolerance, self.levels, solve, worst_error, lambda: 0.0, MODEL).levels[-2:]
+        coarse, fine = choose(tolerance, self.levels, solve, worst_error, lambda: 0.0, MODEL, UNIT).levels[
+            -2:
+        ]
         return Solved(found[fine], found[coarse], built[fine], built[coarse])
 
     def alone(self, level: Level) -> Solved:
@@ -122,6 +125,16 @@ class Teeth:
         with self.clock.stage("contact"):
             series = self.series(level, scene.operation.output_torque, scene.ask.positions)
             return Solved(series, None, level, None)
+
+    def running(self, solved: Solved) -> Series:
+        """Solve a pitch again with the satellite's inertia at the speed of operation, at fewer positions."""
+        count = min(PLAY_POSITIONS, self.design.scene.ask.positions)
+        with self.clock.stage("contact"):
+            crank = pitch_angles(self.design, count)
+            moment = inertia_moment(self.design)
+            return solve_series(
+                self.design, solved.level, solved.fine.torque, crank, self.tilt_stiffness, moment
+            )
 
     def slack(self, solved: Solved) -> Slack:
         """Turn the output both ways under a small torque."""

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from trochoid.drives.entries import ANGLE, Entries, Entry, entry, named
 from trochoid.drives.precessional.stages import Stages
 from trochoid.drives.precessional.turn import FORCES, HARMONICS
+from trochoid.drives.vibration_answers import comparison
 from trochoid.dynamics.spectrum import harmonics
 from trochoid.kinematics.sphere_tooth import SphereTooth
 from trochoid.kinematics.types import Array
@@ -149,20 +150,22 @@ def _couples(stages: Stages) -> Entries:
 
 
 def _vibration(stages: Stages) -> Entries:
-    found = stages.vibration
+    from trochoid.drives.precessional.vibration import models
+
+    found, best = stages.vibration, "rigid" if stages.yielding is None else "elastic"
     dims = (FREQUENCY, "point", "direction")
-    low, high = found.rigid.band
+    low, high = found.elastic.band
     made: Entries = {}
-    for name, each in found.models.items():
+    for name, each in models(found, best).items():
         lines = np.moveaxis(each.velocity, -1, 0)
-        figure = {"figure": VELOCITY} if name == found.best else {}
+        figure = {"figure": VELOCITY} if name == best else {}
         made[f"vibration_velocity_{name}"] = _entry(
             dims, lines, "m/s", f"velocity, {name}", **figure, scale="log"
         )
         made[f"vibration_rms_{name}"] = _entry(
             dims[1:], each.rms, "m/s", f"rms velocity, {name}, {low:g} to {high:g} Hz"
         )
-    return made
+    return made | comparison(found)
 
 
 def _flank(tooth: SphereTooth) -> Entries:

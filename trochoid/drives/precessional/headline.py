@@ -31,7 +31,7 @@ NEVER_SIMULATED = {
     "friction": "Teeth, joints and bearings have no friction: no losses and no efficiency.",
     "shocks": "Nothing strikes on reversal, and the bearings' play is in their stiffness alone.",
     "elasticity of shafts, teeth and casing": (
-        "Shafts, pins, the member with the pins, the hub and the casing are rigid: of members only the toothed rim and "
+        "Shafts, pins, the member with the pins, the hub and the casing's seats are rigid: of members only the toothed rim and "
         "the rollers yield, in the contacts alone; reactions and modes know springs in A, B, O, C and the mounts."
     ),
     "uneven output": "The joint at O is a constant-velocity one that gives way along z: it holds the satellite "

@@ -80,6 +80,7 @@ def _pick(teeth: Teeth, solved: Callable[[str, int | None], Any]) -> Pick:
         worst_error,
         lambda: 0.0,
         RUNGS[0].name,
+        "facets per tooth",
     )
     named = accuracy.facets_per_lobe is not None
     return Pick(chosen.rung, chosen.levels[-1], chosen.error, chosen.of, chosen.levels, named)

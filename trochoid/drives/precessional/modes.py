@@ -9,21 +9,26 @@ its frequency there is 0; the line of 2 z1/z2, which an uneven satellite excites
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from trochoid.drives.casing import rigid_casing_of
 from trochoid.drives.modes import Mode, campbell_plot, heard, shares
 from trochoid.drives.precessional.design import Design
 from trochoid.drives.precessional.mechanism import PrecessionalDrive
 from trochoid.drives.precessional.members import Bodies, bodies
 from trochoid.drives.precessional.yielding import Yielding, output_mass
-from trochoid.dynamics.casing import Casing, Mount, follow, matrices
+from trochoid.dynamics.casing import follow, matrices
 from trochoid.dynamics.constraint import free_motions
 from trochoid.dynamics.system import System
 from trochoid.dynamics.whirl import Whirl, whirl
 from trochoid.kinematics.errors import NotConverged, TrochoidError
-from trochoid.kinematics.types import Array, frozen
+from trochoid.kinematics.types import Array, ComplexArray, frozen
 from trochoid.results.plot import Plot
+
+if TYPE_CHECKING:
+    from trochoid.fem.solid import SolidBody
 
 MOTIONS = ("across z", "across z", "along z", "tilting", "tilting", "turning about z")
 SPEEDS, CRITICAL = 49, 3
@@ -55,7 +60,8 @@ class Reduced:
 @dataclass(frozen=True, slots=True)
 class NaturalModes:
     """Modes at the speed of operation; lowest critical speeds (rad/s), of loads that turn with the shaft and of the
-    line 2 z1/z2; the Campbell diagram.  `with_casing`: whether the casing on its mounts is in it.
+    line 2 z1/z2; the Campbell diagram.  `with_casing`: whether the casing on its mounts is in it.  `motions` (modes, m,
+    6) of the m `members` about their `centers` (m, 3), as the shaft sees them.
     """
 
     modes: tuple[Mode, ...]
@@ -63,27 +69,40 @@ class NaturalModes:
     critical_uneven: tuple[float, ...]
     campbell: Plot
     with_casing: bool
+    members: tuple[str, ...]
+    centers: Array
+    motions: ComplexArray
 
 
-def natural_modes(design: Design, drive: PrecessionalDrive, held: Yielding | None) -> NaturalModes:
-    """Return modes and critical speeds; raises TrochoidError where nothing yields."""
+def natural_modes(
+    design: Design, drive: PrecessionalDrive, held: Yielding | None, body: SolidBody | None = None
+) -> NaturalModes:
+    """Return modes and critical speeds, with the mass of an elastic casing's `body`.
+
+    Raises TrochoidError where nothing yields.
+    """
     if held is None or not (held.joints.yields or design.scene.has("casing_on_mounts")):
         raise TrochoidError(
             "natural frequencies need something that yields: give bearing_a, bearing_b or joint_o a table"
         )
-    casing = casing_matrices(design) if design.scene.has("casing_on_mounts") else None
+    casing = casing_matrices(design, body) if design.scene.has("casing_on_mounts") else None
     speed = design.speed
     made = bodies(drive, speed, design.shaft_shape, held.joints, output_mass(design), casing)
     reduced = reduce(made, speed)
     found = whirl(reduced.system(speed))
     modes = [_mode(reduced, found, i, speed) for i in range(found.frequency.size)]
+    by_frequency = sorted(range(len(modes)), key=lambda i: modes[i].frequency)
+    motions = (reduced.basis @ found.shapes[:, by_frequency]).T.reshape(len(modes), len(made.members), 6)
     order = 2.0 * drive.tooth_ratio
     return NaturalModes(
-        tuple(sorted(modes, key=lambda mode: mode.frequency)),
+        tuple(modes[i] for i in by_frequency),
         _apart(critical_speeds(reduced, 0.0))[:CRITICAL],
         _apart(critical_speeds(reduced, order))[:CRITICAL],
         _campbell(reduced, speed, drive.tooth_ratio),
         casing is not None,
+        tuple(member.name for member in made.members),
+        frozen(np.array([member.center for member in made.members])),
+        motions,
     )
 
 
@@ -100,14 +119,11 @@ def fail_if_unstable(held: Yielding, speed: float) -> None:
         )
 
 
-def casing_matrices(design: Design) -> tuple[Array, Array]:
-    """Return mass and mount stiffness (6, 6) of the casing about O, fixed frame."""
-    table = design.scene.casing
-    if table is None:
-        raise TrochoidError("a casing on mounts needs the scene's [casing] table")
-    mounts = tuple(Mount(m.position, m.stiffness, m.damping) for m in table.mounts)
-    mass, _, stiffness = matrices(Casing(table.mass, table.inertia, table.center, mounts))
-    to_center = np.vstack([follow(table.center, (0.0, 0.0, 0.0)), np.eye(6)[3:]])
+def casing_matrices(design: Design, body: SolidBody | None = None) -> tuple[Array, Array]:
+    """Return mass and mount stiffness (6, 6) of the casing about O, fixed frame; of an elastic one as if rigid."""
+    casing, _ = rigid_casing_of(design.scene, body)
+    mass, _, stiffness = matrices(casing)
+    to_center = np.vstack([follow(casing.center, (0.0, 0.0, 0.0)), np.eye(6)[3:]])
     return frozen(to_center.T @ mass @ to_center), frozen(to_center.T @ stiffness @ to_center)
 
 

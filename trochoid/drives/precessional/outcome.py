@@ -7,24 +7,27 @@ from dataclasses import replace
 from typing import Any
 
 from trochoid.drives.gathering import begun, timed
+from trochoid.drives.planning import with_casing
 from trochoid.drives.precessional import headline
 from trochoid.drives.precessional.plan import ELASTIC, WHY
 from trochoid.drives.precessional.stages import Stages
+from trochoid.drives.vibration_answers import casing_checks
 from trochoid.results.outcome import Check, Outcome, Quantity
 
 BALANCE = 1e-9
 ENERGY = 1e-6
 PENETRATION = 1e-12  # rad
-SOLVED = 1e-6  # of the largest approach; under a thousandth of a usual torque rounding of gaps leaves 7e-7
+SOLVED = 1e-9  # of the largest approach
 
 
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but the figures' own."""
     ran, elastic = tuple(stages.clock.seconds), stages.scene.has("elastic_contact")
+    why, _ = with_casing(stages.scene, WHY, {})
     words = begun(
         stages,
         quantities,
-        [name for name in WHY if elastic or name not in ELASTIC],
+        [name for name in why if elastic or name not in ELASTIC],
         headline,
         headline.not_simulated(stages.scene),
     )
@@ -49,8 +52,18 @@ def _pictures(stages: Stages, ran: tuple[str, ...], profile: bool) -> dict[str, 
             drawn = with_forces(drawn, stages.design, stages.contact.fine)
         tooth = stages.design.tooth
         maps = () if tooth is None or "penetration" not in ran else (undercut_map(tooth),)
-        campbell = (stages.modes.campbell,) if "modes" in ran else ()
-        return {"dataset": dataset(stages, ran, profile), "plots": (drawn, *maps, *campbell)}
+        made: dict[str, Any] = {"dataset": dataset(stages, ran, profile), "plots": (drawn, *maps)}
+        if "modes" in ran:
+            from trochoid.drives.precessional.mode_shapes import films
+
+            made["plots"] = (drawn, *maps, stages.modes.campbell)
+            made["films"] = films(stages.design, stages.modes)
+        if "contact" in ran and stages.contact is not None:
+            from trochoid.drives.precessional.films import contact_film
+
+            film = contact_film(stages.design, stages.contact)
+            made["films"] = (film, *made.get("films", ()))
+        return made
 
 
 def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
@@ -90,6 +103,8 @@ def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
         )
         unmet = abs(moved.power - moved.loss) / moved.loss if moved.loss > 0.0 else 0.0
         found.append(Check.within("work on the elastic motion is what damping takes", unmet, ENERGY))
+    if "vibration" in ran:
+        found += casing_checks(stages.vibration)
     return tuple(found)
 
 
@@ -103,12 +118,17 @@ def warnings(stages: Stages) -> Iterator[str]:
         if given:
             yield f'the tables {", ".join(given)} do nothing without the effect "elastic_contact"'
         return
-    ignored = [name for name in ("crown", "clearance") if getattr(rollers, name) > 0.0]
+    ignored = [name for name in ("crown", "clearance", "tilt", "skew") if getattr(rollers, name) != 0.0]
     if ignored and not scene.has("clearance"):
         yield f'{" and ".join(ignored)} of the rollers do nothing without the effect "clearance"'
+    if rollers.seat_stiffness is not None and not scene.has("pin_compliance"):
+        yield 'the seat_stiffness of the rollers does nothing without the effect "pin_compliance": they stand rigidly'
     if rollers.bore_angle is not None and not scene.has("pin_compliance"):
         yield 'the bore of the rollers does nothing without the effect "pin_compliance": they are rigid'
-    if "contact" in stages.clock.seconds and stages.contact is not None and stages.contact.fine.edge.any():
+    if "contact" in stages.clock.seconds and stages.contact is not None:
         from trochoid.drives.precessional.answers_contact import EDGE
+        from trochoid.drives.precessional.overload import doubts
 
-        yield EDGE
+        if stages.contact.fine.edge.any():
+            yield EDGE
+        yield from doubts(stages.contact.fine)

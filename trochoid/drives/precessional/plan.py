@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from trochoid.drives.planning import planned
+from trochoid.drives.planning import planned, with_casing
 from trochoid.plan import Plan
 from trochoid.scene.drive_precessional import PrecessionalScene
 
@@ -25,6 +25,8 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "torsional_stiffness": _CONTACT,
     "lost_motion": (*_CONTACT, "lost motion"),
     "bearing_loads": _CONTACT,
+    "bearing_stiffness": (*_BUILT, "mass", "elastic", "bearings"),
+    "bearing_life": (*_BUILT, "mass", "elastic", "bearings"),
     "reactions": (*_BUILT, "mass", "elastic", "reactions"),
     "balance": (*_BUILT, "mass"),
     "natural_frequencies": (*_BUILT, "mass", "elastic", "modes"),
@@ -39,6 +41,7 @@ WHY = {
     "penetration": "no pin cuts into a flank at any crank angle, by brute force",
     "mass": "masses and places, static balance",
     "elastic": "bearings under their loads, steady motion of the members on them",
+    "bearings": "rolling bearings under the loads of a period",
     "bodies": "toothed rim and rollers meshed and pressed, on two levels for the error",
     "contact": "all rollers and teeth together over a pitch, on both levels",
     "lost motion": "the output turned both ways under a small torque",
@@ -51,6 +54,13 @@ WHY = {
 ELASTIC = ("bodies", "contact", "lost motion")
 
 
+def _seats(scene: PrecessionalScene) -> float:
+    """Return the seconds that flexible seats take."""
+    d = scene.drive
+    found = [d.bearing_a, d.bearing_b, d.bearing_c]
+    return 0.8 * sum(1 for table in found if table is not None and table.seat is not None)
+
+
 def plan(scene: PrecessionalScene) -> Plan:
     """Return what a run would do."""
     drive = scene.drive
@@ -59,7 +69,8 @@ def plan(scene: PrecessionalScene) -> Plan:
         "penetration": 0.02 + 6e-7 * teeth**2,
         "reactions": 0.02 + 1e-4 * turns,
         "vibration": 0.02 + 1.5e-3 * turns,
-        "elastic": 0.1,
+        "elastic": 0.1 + _seats(scene),
+        "bearings": 0.2,
         "modes": 0.2,
     }
     rigid = () if scene.has("bearing_compliance") else ("elastic",)
@@ -68,10 +79,12 @@ def plan(scene: PrecessionalScene) -> Plan:
         name: tuple(s for s in stages if s not in rigid and s not in unheld[name])
         for name, stages in STAGES_OF.items()
     }
+    of_the_body = ("mass", *(("natural_frequencies",) if scene.has("casing_on_mounts") else ()))
+    why, needed = with_casing(scene, WHY, needed, of_the_body)
     if not scene.has("elastic_contact"):
         return planned(
-            scene, {name: said for name, said in WHY.items() if name not in ELASTIC}, needed, seconds
+            scene, {name: said for name, said in why.items() if name not in ELASTIC}, needed, seconds
         )
     per = 0.02 if drive.teeth is None or drive.teeth.pins_on == "ring" else 0.04
     seconds |= {"bodies": 1.5, "contact": 2 * per * scene.ask.positions, "lost motion": 4 * per * 24}
-    return planned(scene, WHY, needed, seconds, "slices", 400.0)
+    return planned(scene, why, needed, seconds, "slices", 400.0)

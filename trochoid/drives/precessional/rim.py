@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 
 from trochoid.drives.precessional.design import Design
-from trochoid.geometry.sphere_outline import RimShape
+from trochoid.geometry.sphere_rim import RimShape
 from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.sphere_tooth import SphereTooth
 from trochoid.scene.drive_precessional import Teeth
 
 DEPTH = 2.5  # heights of a tooth: how far below its spaces the rim is held where the scene does not say
+LEAST_DEPTH = 0.25  # of a pitch: and no less than that, for teeth of small nutation are flat
 
 
 def toothed(design: Design) -> tuple[SphereTooth, Teeth]:
@@ -25,7 +26,7 @@ def rim_shape(design: Design) -> RimShape:
     (tooth, _), given = toothed(design), design.scene.drive.rim
     polar = [math.acos(float(tooth.point(p)[2])) for p in (0.0, math.pi / tooth.lobes)]
     low, high = min(polar), max(polar)
-    deep = DEPTH * (high - low)
+    deep = max(DEPTH * (high - low), LEAST_DEPTH * 2.0 * math.pi * math.sin(low) / tooth.lobes)
     hub = min(high + deep, 0.5 * (high + math.pi)) if tooth.hole else max(low - deep, 0.5 * low)
     try:
         return RimShape(tooth, hub if given.hub_angle is None else given.hub_angle, given.tip_angle)
@@ -88,6 +89,12 @@ def play(design: Design) -> float:
     """Angle (rad) by which rollers are thinner than the flanks are cut for; 0 without the effect "clearance"."""
     rollers = design.scene.drive.rollers
     return rollers.clearance / design.tooth_radius if design.scene.has("clearance") else 0.0
+
+
+def lean(design: Design) -> tuple[float, float]:
+    """Tilt and skew (rad) of the rollers' axes; none without the effect "clearance"."""
+    rollers = design.scene.drive.rollers
+    return (rollers.tilt, rollers.skew) if design.scene.has("clearance") else (0.0, 0.0)
 
 
 def crowning(design: Design) -> float:

@@ -8,18 +8,24 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from trochoid.clock import Clock
+from trochoid.drives.casing import casing_reasons, is_elastic
+from trochoid.drives.mesh_error import Pair
 from trochoid.drives.precessional.design import Design, design
 from trochoid.kinematics.errors import Infeasible
 from trochoid.scene.drive_precessional import PrecessionalScene
 
 if TYPE_CHECKING:
+    from trochoid.drives.casing import Shaken
+    from trochoid.drives.precessional.contact import Series
     from trochoid.drives.precessional.contact_stages import Slack, Solved, Teeth
     from trochoid.drives.precessional.elastic import Elastic
     from trochoid.drives.precessional.mechanism import PrecessionalDrive
     from trochoid.drives.precessional.modes import NaturalModes
     from trochoid.drives.precessional.turn import Turn
-    from trochoid.drives.precessional.vibration import CasingVibration
     from trochoid.drives.precessional.yielding import Yielding
+    from trochoid.drives.rolling import Held
+    from trochoid.drives.vibration import CasingVibration
+    from trochoid.fem.solid import SolidBody
 
 
 @dataclass(frozen=True)
@@ -47,6 +53,13 @@ class Stages:
                 from trochoid.drives.precessional.rim import rim_faults
 
                 reasons = rim_faults(made)
+            reasons = (*reasons, *casing_reasons(self.scene))
+            if self.scene.has("bearing_compliance"):
+                from trochoid.drives.rolling import faults as rolling_faults
+
+                d = self.scene.drive
+                named = {"bearing_a": d.bearing_a, "bearing_b": d.bearing_b, "bearing_c": d.bearing_c}
+                reasons = (*reasons, *rolling_faults(named))
             if reasons:
                 raise Infeasible("\n".join(reasons))
         return made
@@ -84,6 +97,17 @@ class Stages:
             fail_if_unstable(found, made.speed)
             return found
 
+    @cached_property
+    def bearings(self) -> dict[str, tuple[Held, ...]]:
+        """Rolling bearings of the joints A, B, C under the loads of a period."""
+        drive, made, held = self.mechanism, self.design, self.yielding
+        if held is None:
+            return {}
+        with self.clock.stage("bearings"):
+            from trochoid.drives.precessional.yielding import bearings_over_period
+
+            return bearings_over_period(made, drive, held)
+
     @property
     def elastic(self) -> Elastic | None:
         """Steady motion of the yielding members; None where nothing yields."""
@@ -104,6 +128,14 @@ class Stages:
         return None if self.teeth is None else self.teeth.solved()
 
     @cached_property
+    def running(self) -> Series | None:
+        """Contacts with the satellite's inertia besides; None where nothing yields to it, or the scene has none."""
+        if self.teeth is None or self.contact is None or not self.scene.has("inertia"):
+            return None
+        held = self.teeth.tilt_stiffness is None or self.contact.fine.torque == 0.0
+        return None if held else self.teeth.running(self.contact)
+
+    @cached_property
     def slack(self) -> Slack | None:
         """The output turned both ways under a small torque; None without teeth."""
         return None if self.teeth is None or self.contact is None else self.teeth.slack(self.contact)
@@ -121,16 +153,41 @@ class Stages:
     def modes(self) -> NaturalModes:
         """Natural frequencies of the members on their joints, and of the casing on its mounts with them."""
         drive, made, held = self.mechanism, self.design, self.yielding
+        moves = is_elastic(self.scene) and self.scene.has("casing_on_mounts")
+        body = self.casing_body if moves else None
         with self.clock.stage("modes"):
             from trochoid.drives.precessional.modes import natural_modes
 
-            return natural_modes(made, drive, held)
+            return natural_modes(made, drive, held, body)
+
+    @cached_property
+    def casing_body(self) -> SolidBody:
+        """The elastic casing as a finite-element body."""
+        from trochoid.drives.casing_body import casing_body
+
+        return casing_body(self.scene, self.clock)
+
+    @cached_property
+    def casing(self) -> Pair[Shaken]:
+        """The casing, and its variants without single effects."""
+        from trochoid.drives.casing_body import casings
+
+        return casings(self.scene, self.clock, lambda: self.casing_body)
 
     @cached_property
     def vibration(self) -> CasingVibration:
         """Vibration velocity of the casing and its zone."""
-        drive, made, elastic = self.mechanism, self.design, self.elastic
+        return self._vibration(self.casing.fine)
+
+    @cached_property
+    def vibration_levels(self) -> Pair[CasingVibration]:
+        """The same on both mesh levels of an elastic casing."""
+        coarse = self.casing.coarse
+        return Pair(self.vibration, None if coarse is None else self._vibration(coarse))
+
+    def _vibration(self, casing: Shaken) -> CasingVibration:
+        drive, made, held = self.mechanism, self.design, self.yielding
         with self.clock.stage("vibration"):
             from trochoid.drives.precessional.vibration import vibration
 
-            return vibration(made, drive, elastic)
+            return vibration(made, drive, casing, held)

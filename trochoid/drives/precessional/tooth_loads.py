@@ -62,9 +62,3 @@ def power_residual(design: Design, series: Series, loads: ToothLoads) -> float:
     out = -abs(series.torque / float(design.nutation.ratio)) * np.sign(series.torque)
     off = float(np.abs(loads.motor + teeth + out).max())
     return off / abs(out) if out else off
-
-
-def stored_residual(design: Design, series: Series, loads: ToothLoads) -> float:
-    """Mean of the motor's torque over a pitch less that of the load, over the last: nothing stays in the teeth."""
-    out = abs(series.torque / float(design.nutation.ratio)) * np.sign(series.torque)
-    return abs(float(loads.motor.mean()) - out) / abs(out) if out else 0.0

@@ -1,46 +1,54 @@
-"""Vibration velocity of the casing on its mounts by both models, and the zone that a standard gives it."""
+"""Vibration velocity of the casing on its mounts by all models, and the zone that a standard gives it."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import replace
+from functools import partial
 
-from trochoid.drives.precessional.casing import casing_vibration, closed_record
+from trochoid.drives.casing import Shaken
+from trochoid.drives.precessional.casing import casing_load, closed_record, places
 from trochoid.drives.precessional.design import Design
-from trochoid.drives.precessional.elastic import Elastic
-from trochoid.drives.precessional.mechanism import PrecessionalDrive
+from trochoid.drives.precessional.elastic import respond
+from trochoid.drives.precessional.mechanism import Counterweight, PrecessionalDrive
+from trochoid.drives.precessional.members import bodies
+from trochoid.drives.precessional.reactions import Reactions, reactions
 from trochoid.drives.precessional.turn import MODELS
-from trochoid.drives.vibration import casing_of, zone_of
+from trochoid.drives.precessional.yielding import Yielding, output_mass
+from trochoid.drives.vibration import PRINTED, RIGID, UNBALANCED, CasingVibration, Load, shaken
 from trochoid.dynamics.vibration import Vibration
-from trochoid.dynamics.zones import Zone
 
 
-@dataclass(frozen=True, slots=True)
-class CasingVibration:
-    """Vibration by the models "rigid" and "printed", "elastic" where joints yield, and the zone of the best one."""
+def vibration(
+    design: Design, drive: PrecessionalDrive, casing: Shaken, held: Yielding | None = None
+) -> CasingVibration:
+    """Shake the casing with all reactions on it: by the elastic model where joints are `held` by springs, else rigid.
 
-    models: Mapping[str, Vibration]
-    zone: Zone
+    Beside it by the other models, and with the best one without counterweight.
+    """
+    record = closed_record(drive)
+    found = {} if held is None else {"elastic": held.elastic.reactions(record)}
+    found |= {name: reactions(drive, record, design.speed, model) for name, model in MODELS.items()}
+    if drive.counterweight.mass > 0.0:
+        found[UNBALANCED] = _unbalanced(design, drive, held)
+    loads = {name: Load(casing_load(each), partial(places, each)) for name, each in found.items()}
+    base = design.speed / (2.0 * math.pi * drive.nutation.closing_turns)
+    made = shaken(design.scene, casing, loads, base, (design.speed, abs(design.output_speed)))
+    # these loads have three lines, all of them resolved
+    return made.said(lambda each: replace(each, warnings=()))
 
-    @property
-    def best(self) -> str:
-        """The model that has most in it: "elastic", else "rigid"."""
-        return "elastic" if "elastic" in self.models else "rigid"
 
-    @property
-    def rigid(self) -> Vibration:
-        """Vibration by exact reactions."""
-        return self.models["rigid"]
+def models(found: CasingVibration, best: str) -> Mapping[str, Vibration]:
+    """Return the vibrations by model, the `best` one among them."""
+    others = {name: found.others[name] for name in (RIGID, PRINTED) if name in found.others}
+    return {RIGID: found.rigid, **others, best: found.elastic}
 
 
-def vibration(design: Design, drive: PrecessionalDrive, elastic: Elastic | None = None) -> CasingVibration:
-    """Shake the casing with the vector sum of all reactions on it; raises TrochoidError without a casing."""
-    casing, points = casing_of(design.scene)
-    models = {
-        name: casing_vibration(drive, design.speed, casing, points, model) for name, model in MODELS.items()
-    }
-    if elastic is not None:
-        yielding = elastic.reactions(closed_record(drive))
-        models["elastic"] = casing_vibration(drive, design.speed, casing, points, found=yielding)
-    best = models["rigid" if elastic is None else "elastic"]
-    return CasingVibration(models, zone_of(design.scene, best, (design.speed, abs(design.output_speed))))
+def _unbalanced(design: Design, drive: PrecessionalDrive, held: Yielding | None) -> Reactions:
+    """Return the reactions of the same drive, on the same joints, without its counterweight."""
+    bare, record = replace(drive, counterweight=Counterweight(0.0, 0.0, 0.0)), closed_record(drive)
+    if held is None:
+        return reactions(bare, record, design.speed)
+    moved = bodies(bare, design.speed, design.shaft_shape, held.joints, output_mass(design))
+    return respond(bare, moved, design.speed, design.scene.operation.damping_ratio).reactions(record)
