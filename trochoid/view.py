@@ -156,7 +156,11 @@ def _draw(
         for listed, body in bodies:
             add_body(plotter, listed.name, listed, body, look)
         said = f"{film.title}\n{_value(film, number)}\n{look.caption}"
-        plotter.add_text(said, name="caption", position="upper_left", font_size=9 * look.fonts, color=_INK)
+        caption = plotter.add_text(
+            said, name="caption", position=(0.02, 0.98), viewport=True, font_size=9 * look.fonts, color=_INK
+        )
+        caption.prop.SetVerticalJustificationToTop()
+        caption.prop.SetLineSpacing(1.25)
         return
     for index, (listed, body) in enumerate(bodies):
         plotter.subplot(0, index)

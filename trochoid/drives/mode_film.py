@@ -12,11 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from trochoid.drives import solids
+from trochoid.drives.solids import Solid, revolved
 from trochoid.kinematics.types import Array, ComplexArray, IntArray, frozen
 from trochoid.results.film import Field, FieldFrame, Film, Later
 from trochoid.results.plot import Axis
 
 PHASE = Axis("phase", "rad")
+UPWARDS = np.array([0.0, 0.0, 1.0])
 FRAMES, MOST = 12, 6  # phases of a film, and modes that are shown
 GLASS = 0.3  # opacity of what rests, or hides others
 SHARE = 0.08  # of the drive's half size: the largest displacement
@@ -106,41 +109,27 @@ def plate(name: str, outline: Array, radius: float, z: float, center: Array) -> 
 
 def solid(name: str, radius: float, low: float, high: float, center: Array) -> Part:
     """Return a cylinder about the axis through `center` (3,), between two heights, with both lids."""
-    rim, middle = round_outline(radius, center[:2]), center[:2]
-    points = np.concatenate(
-        [np.column_stack([rim, np.full(SIDES, z)]) for z in (low, high)] + [[[*middle, low], [*middle, high]]]
-    )
-    at, after = np.arange(SIDES), (np.arange(SIDES) + 1) % SIDES
-    lids = [
-        np.stack([after, at, np.full(SIDES, 2 * SIDES)]),
-        np.stack([SIDES + at, SIDES + after, np.full(SIDES, 2 * SIDES + 1)]),
-    ]
-    return Part(name, frozen(points), np.concatenate([_band(0, SIDES, SIDES), *lids], axis=1), frozen(center))
+    profile = ((0.0, low), (radius, low), (radius, high), (0.0, high))
+    return _upright(name, revolved(profile, UPWARDS, SIDES), center)
 
 
 def tube(name: str, radii: tuple[float, float], low: float, high: float, center: Array) -> Part:
     """Return a round ring of two radii between two heights."""
-    rims = [round_outline(radius, center[:2], AROUND) for radius in radii]
-    points = np.concatenate([np.column_stack([rim, np.full(AROUND, z)]) for z in (low, high) for rim in rims])
-    pairs = ((0, 1), (2, 3), (0, 2), (1, 3))  # of rims: lids, outside, inside
-    cells = np.concatenate([_band(a * AROUND, b * AROUND, AROUND) for a, b in pairs], axis=1)
-    return Part(name, frozen(points), cells, frozen(center))
+    inner, outer = sorted(radii)
+    profile = ((inner, low), (outer, low), (outer, high), (inner, high))
+    return _upright(name, revolved(profile, UPWARDS, AROUND), center)
+
+
+def _upright(name: str, made: Solid, center: Array) -> Part:
+    """Return a solid about the z axis as a part about the axis through `center`."""
+    points = made.points + np.array([*center[:2], 0.0])
+    return Part(name, frozen(points), made.cells, frozen(center))
 
 
 def joined(name: str, parts: Sequence[Part], opacity: float = 1.0) -> Part:
     """Return solids that are one member, which moves as the first of them."""
-    starts = np.cumsum([0, *(len(part.points) for part in parts)])
-    cells = np.concatenate([part.cells + start for part, start in zip(parts, starts, strict=False)], axis=1)
-    return Part(
-        name, frozen(np.concatenate([part.points for part in parts])), cells, parts[0].center, opacity
-    )
-
-
-def round_outline(radius: float, middle: Array | None = None, sides: int = SIDES) -> Array:
-    """Return a circle (sides, 2)."""
-    angle = 2.0 * np.pi * np.arange(sides) / sides
-    circle = radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return circle if middle is None else circle + middle
+    whole = solids.joined([Solid(part.points, part.cells) for part in parts])
+    return Part(name, frozen(whole.points), whole.cells, parts[0].center, opacity)
 
 
 def at_parameters(period: float, teeth: int) -> Array:
