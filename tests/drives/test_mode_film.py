@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from trochoid.clock import Clock
+from trochoid.drives.disc_pack import circle
 from trochoid.drives.mode_film import (
     BYTES,
     FRAMES,
@@ -20,7 +21,6 @@ from trochoid.drives.mode_film import (
     joined,
     mode_films,
     plate,
-    round_outline,
     solid,
     tube,
 )
@@ -39,7 +39,7 @@ def parts() -> list[Part]:
     """A cylinder, a ring, a flat disc, and a member of two solids."""
     about = np.zeros(3)
     both = joined("both", [solid("", 0.01, -0.05, 0.05, MIDDLE), tube("", (0.03, 0.02), 0.0, 0.01, MIDDLE)])
-    disc = plate("disc", round_outline(0.04, MIDDLE[:2]), 0.01, 0.05, MIDDLE)
+    disc = plate("disc", circle(0.04, 16) + MIDDLE[:2], 0.01, 0.05, MIDDLE)
     return [
         solid("cylinder", 0.02, 0.0, 0.1, about),
         tube("ring", (0.06, 0.05), -0.01, 0.01, about),
@@ -122,7 +122,7 @@ def test_few_modes_and_small_files(tmp_path: Path) -> None:
     for film in films:
         vtk.save(film, tmp_path)
     assert sum(path.stat().st_size for path in tmp_path.rglob("*.vtu")) < BYTES
-    fine = plate("fine", round_outline(0.1, sides=5000), 0.01, 0.0, np.zeros(3))
+    fine = plate("fine", circle(0.1, 5000), 0.01, 0.0, np.zeros(3))
     swings = [Swing(i + 1, "", np.ones((1, 6), dtype=complex)) for i in range(3)]
     assert len(mode_films([fine], swings)) == 1
 
