@@ -19,7 +19,8 @@ from trochoid.scene.needs import NEEDS
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 SCENES = {"khv": "cycloid"} | {kind: kind for kind in NEEDS if kind != "khv"}
-PAIRS, FEW = 5, 3
+PAIRS, FEW = 3, 1
+SHORT = 15  # times as many pairs of runs that take milliseconds
 NOTHING = 1.1  # a ratio that is one as far as a machine with other work to do can tell
 # coarse meshes and one model, so that what is chosen does not depend on the effect
 COARSE = {
@@ -44,7 +45,10 @@ def _table(kind: str, pairs: int) -> Table:
     rows = [
         Row("a scene beside itself", _ratio(kind, (every, every), asked, pairs), ""),
         Row(
-            "all effects beside none, asked for the ratio", _ratio(kind, (every, ()), one, pairs), "", NOTHING
+            "all effects beside none, asked for the ratio",
+            _ratio(kind, (every, ()), one, SHORT * pairs),
+            "",
+            NOTHING,
         ),
     ]
     for name in every:

@@ -25,7 +25,9 @@ from trochoid.fem.material import Material
 from trochoid.fem.point_contact import Bump, smooth_part
 from trochoid.geometry.quality import Quality
 from trochoid.geometry.slotted import HUB, WALL, SlottedWheel, slotted_outline
-from trochoid.geometry.sphere_mesh import mesh_sphere, sphere_quality
+from trochoid.geometry.sphere_mesh import SphereMesh, mesh_sphere, sphere_quality
+from trochoid.geometry.sphere_outline import SphereOutline
+from trochoid.kinematics.errors import TrochoidError
 from trochoid.kinematics.types import Array, IntArray
 
 EDGE = (
@@ -35,6 +37,7 @@ NARROW = 0.05  # of the pin's radius, the same for thin wheels: contacts are nar
 AT_EDGE = 2.5  # facets on that length, so that a station's load lies on the wall
 MOST = 26  # facets along a wall, on the level with 8 of them over the thickness
 STATIONS = 8
+RETRIES, SLOWER = 2, 0.7  # of a mesh that folds, and by how much slower elements then grow
 SLICES, LAYERS = 12, (2, 3, 4, 6)
 
 
@@ -61,7 +64,7 @@ class WallMesh:
     @property
     def growth(self) -> float:
         """Growth of elements away from the wall, from one to the next."""
-        return 1.0 + 3.6 / self.facets
+        return 1.0 + 4.2 / self.facets
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +139,7 @@ def wall_body(
         (wheel.mouth - wheel.bottom) * 8.0 / (MOST * mesh.facets),
     )
     edge = max(EDGE * (ends[1] - ends[0]) / ends[1], NARROW * wheel.opening)
-    plane = mesh_sphere(slotted_outline(wheel, size, min(size, edge / AT_EDGE), nearest), mesh.growth)
+    plane = _meshed(slotted_outline(wheel, size, min(size, edge / AT_EDGE), nearest), mesh.growth)
     body = cone_body(plane, mesh.radial(ends), material, held=(HUB,))
     side = flank(plane, wheel.wall, WALL, SPREAD)
     return WallBody(
@@ -184,6 +187,16 @@ def press_stations(made: WallBody, parts: int = 1, point: float | None = None) -
     own = found.reshape(count, len(coarse.middle), count, -1)[number, :, number]
     fine = finer(coarse, parts)
     return Wall(reach, sharpened(own, half, coarse, fine, ends, kernel), half, fine, *known)
+
+
+def _meshed(outline: SphereOutline, growth: float) -> SphereMesh:
+    """Mesh an outline; where elements fold beside a slim slot, with slower growth."""
+    for _ in range(RETRIES):
+        try:
+            return mesh_sphere(outline, growth)
+        except TrochoidError:
+            growth = 1.0 + SLOWER * (growth - 1.0)
+    return mesh_sphere(outline, growth)
 
 
 def _stations(side: Flank, wheel: SlottedWheel, nearest: float, edge: float) -> IntArray:

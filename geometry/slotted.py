@@ -19,7 +19,7 @@ from trochoid.kinematics.types import Array
 
 WALL, HUB = "wall", "hub"  # names of sides
 SLOPE = 0.3  # of the distance, by which facets grow
-BESIDE = 2  # slots to either side of the pressed one that are cut; farther ones are not felt
+BESIDE = 3  # slots to either side of the pressed one that are cut; farther ones are not felt
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +144,7 @@ def wall_breaks(wheel: SlottedWheel, facet: float, edge: float, nearest: float) 
 
 
 def _plain_breaks(wheel: SlottedWheel, facet: float) -> Array:
-    count = max(2, min(8, round((wheel.mouth - wheel.bottom) / facet)))
+    count = max(2, min(5, round((wheel.mouth - wheel.bottom) / facet)))
     return np.linspace(wheel.bottom, wheel.mouth, count + 1)
 
 

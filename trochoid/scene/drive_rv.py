@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator, model_validator
 
 from trochoid.scene import units
+from trochoid.scene.cycloid_fields import ascending, one_less_than_pins
 from trochoid.scene.fields import (
     DriveTable,
     Mass,
@@ -26,15 +27,7 @@ SmallSize = Annotated[float, Measure(units.LENGTH, least=0.0, most=1e5)]
 Place = Annotated[float, Measure(units.LENGTH, least=-1e5, most=1e5)]
 
 
-def _ascending(positions: tuple[float, float]) -> tuple[float, float]:
-    if not positions[0] < positions[1]:
-        raise fault(
-            f"given {positions[0] * 1e3:g} and {positions[1] * 1e3:g} mm; need two places, the lower z first"
-        )
-    return positions
-
-
-BearingPositions = Annotated[tuple[Place, Place], AfterValidator(_ascending)]
+BearingPositions = Annotated[tuple[Place, Place], AfterValidator(ascending)]
 
 
 class Modification(Table):
@@ -45,16 +38,11 @@ class Modification(Table):
     rotation: Annotated[float, Measure(units.ANGLE)] = 0.0
 
 
-def _one_less_than_pins(data: dict[str, Any]) -> int:
-    pins: int = data["pins"]
-    return pins - 1
-
-
 class CycloidStage(Table):
     """[drive.cycloid]: second stage, cycloid discs between ring pins."""
 
     pins: Annotated[int, Whole(4, 1000)]
-    lobes: Annotated[int, Whole(3, 999)] = Field(default_factory=_one_less_than_pins)
+    lobes: Annotated[int, Whole(3, 999)] = Field(default_factory=one_less_than_pins)
     pin_circle_radius: Size
     pin_radius: Size
     eccentricity: Size

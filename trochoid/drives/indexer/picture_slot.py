@@ -9,6 +9,7 @@ import numpy as np
 from trochoid.drives.indexer.pin import Pair, presses
 from trochoid.drives.indexer.words import NAMES
 from trochoid.fem.pin_slot import press
+from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
 from trochoid.results.plot import Axis, Plot, PlotCurve
 
@@ -59,9 +60,12 @@ def _stiffness(pairs: Mapping[str, Pair]) -> Plot:
         moment = np.full(PLACES, x.largest[0] * x.pin.distance)
         for what, law in (("", presses(x.pin, x.elastic)), (", rigid wheel", presses(x.pin, None))):
             u = x.law.pressed(moment, reach)
-            for _ in range(3):  # the moment is nearly a line over u
-                u = u * moment / law(u, reach).moment
-            slope = law(u, reach).slope / x.pin.distance**2
+            try:
+                for _ in range(3):  # the moment is nearly a line over u
+                    u = u * moment / law(u, reach).moment
+                slope = law(u, reach).slope / x.pin.distance**2
+            except NotConverged:  # out of all proportion: what is beside has nothing to tell
+                continue
             style = "dashed" if what else "line"
             curves.append(PlotCurve(f"{NAMES[name]}{what}", np.stack([reach, slope], axis=-1), style=style))
     caption = (

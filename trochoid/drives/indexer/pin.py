@@ -144,13 +144,13 @@ class Pair:
         Contact and pin in closed form, as half-spaces and a beam; a rigid wheel adds nothing.
         """
         here = self.at_largest
-        contact = float(here.slope[0] / self._in_closed_form(here.moment[0], bends=False))
-        if self.elastic is None:
-            return {"contact": contact}
         try:
+            contact = float(here.slope[0] / self._in_closed_form(here.moment[0], bends=False))
+            if self.elastic is None:
+                return {"contact": contact}
             pin = float(here.slope[0] / self._in_closed_form(here.moment[0], bends=True))
-        except NotConverged:  # pins far too thin for their wheel: nothing to share
-            return {"contact": contact}
+        except NotConverged:  # out of all proportion: the closed form has no share to tell
+            return {}
         return {"contact": contact, "pin": pin - contact, "wheel": 1.0 - pin}
 
     def _in_closed_form(self, moment: float, *, bends: bool) -> float:
@@ -226,7 +226,13 @@ def pairs(
     largest = {name: abs(x.largest(lambda y: y.pin)[0]) * pin.distance for name, x in forces.items()}
     play = 0.5 * design.drive.pin.play if scene.has("clearance") else 0.0
     if made.fine is None:
-        law = law_of(pin, presses(pin, None), None, max(largest.values()), play)
+        try:
+            law = law_of(pin, presses(pin, None), None, max(largest.values()), play)
+        except NotConverged as fault:
+            raise Infeasible(
+                f"pin_radius = {1e3 * pin.radius:.6g} mm in a wheel {1e3 * pin.thickness:.6g} mm thick: {fault}; the "
+                "two must be nearer to each other, or the load smaller"
+            ) from fault
         return {name: Pair(pin, law, x) for name, x in forces.items()}
     found = {}
     for name, x in forces.items():

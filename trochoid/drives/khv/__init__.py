@@ -11,7 +11,7 @@ from trochoid.drives.khv.answers import QUANTITIES
 from trochoid.drives.khv.outcome import outcome
 from trochoid.drives.khv.plan import plan
 from trochoid.drives.khv.stages import Stages, named_rung
-from trochoid.ladder import Ladder
+from trochoid.drives.lazy import ladder_of
 from trochoid.plan import Plan
 from trochoid.scene.drive_khv import KhvScene
 
@@ -27,10 +27,4 @@ def _plan(scene: KhvScene) -> Plan:
     return made
 
 
-def _ladder(scene: KhvScene, clock: Clock) -> Ladder:
-    from trochoid.drives.khv.ladder import ladder
-
-    return ladder(scene, clock)
-
-
-DRIVE = Drive(Stages, QUANTITIES, outcome, _plan, _ladder)
+DRIVE = Drive(Stages, QUANTITIES, outcome, _plan, ladder_of("trochoid.drives.khv.ladder"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from trochoid.drives.exact import RPM, exact
+from trochoid.drives.exact import RPM, cycloid_profile, exact
 from trochoid.drives.khv.numbers import over_turn
 from trochoid.drives.khv.stages import Stages
 from trochoid.kinematics.types import Array
@@ -25,20 +25,7 @@ def member_speeds(s: Stages) -> Quantity:
 
 def profile(s: Stages) -> Quantity:
     """Numbers of the tooth profile."""
-    flank = s.feasible.flank
-    t = np.linspace(0, np.pi / flank.lobes, 2001)
-    bend = flank.curvature(t)
-    values = {
-        "trochoid_ratio": (flank.trochoid_ratio, ""),
-        "pitch_radius_disc": (1e3 * flank.eccentricity * flank.lobes, "mm"),
-        "pitch_radius_pins": (1e3 * flank.eccentricity * flank.pins, "mm"),
-        "crest_radius": (1e3 * (flank.pin_circle_radius + flank.eccentricity - flank.pin_radius), "mm"),
-        "root_radius": (1e3 * (flank.pin_circle_radius - flank.eccentricity - flank.pin_radius), "mm"),
-        "pin_radius_undercut_limit": (1e3 * flank.undercut_radius, "mm"),
-        "least_convex_radius": (1e3 / float(bend.max()), "mm"),
-        "least_concave_radius": (-1e3 / float(bend.min()), "mm"),
-    }
-    return exact(values)
+    return exact(cycloid_profile(s.feasible.flank))
 
 
 def geometry_quality(s: Stages) -> Quantity:

@@ -19,7 +19,9 @@ def write_flank(scene: KhvScene, path: Path) -> str:
     found = dataset(stages, ("geometry",))
     series = {} if found is None else {str(name): values for name, values in found.data_vars.items()}
     chosen = {name: values for name, values in series.items() if name.startswith("profile")}
-    return write_table(path, {f"{name} [{values.attrs['units']}]": values.values for name, values in chosen.items()})
+    return write_table(
+        path, {f"{name} [{values.attrs['units']}]": values.values for name, values in chosen.items()}
+    )
 
 
 WRITERS = {".csv": ("points of the theoretical flank", write_flank)}

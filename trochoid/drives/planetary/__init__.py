@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from trochoid.clock import Clock
 from trochoid.drives import Drive
+from trochoid.drives.lazy import ladder_of
 from trochoid.drives.planetary.answers import QUANTITIES
 from trochoid.drives.planetary.outcome import outcome
 from trochoid.drives.planetary.plan import plan
 from trochoid.drives.planetary.stages import Stages
-from trochoid.ladder import Ladder
 from trochoid.plan import Plan
 from trochoid.scene.drive_planetary import PlanetaryScene
 
@@ -20,10 +20,4 @@ def _plan(scene: PlanetaryScene) -> Plan:
     return made
 
 
-def _ladder(scene: PlanetaryScene, clock: Clock) -> Ladder:
-    from trochoid.drives.planetary.ladder import ladder
-
-    return ladder(scene, clock)
-
-
-DRIVE = Drive(Stages, QUANTITIES, outcome, _plan, _ladder)
+DRIVE = Drive(Stages, QUANTITIES, outcome, _plan, ladder_of("trochoid.drives.planetary.ladder"))

@@ -31,8 +31,9 @@ NEVER_SIMULATED = {
     "friction": "Teeth, joints and bearings have no friction: no losses and no efficiency.",
     "shocks": "Nothing strikes on reversal, and the bearings' play is in their stiffness alone.",
     "elasticity of shafts, teeth and casing": (
-        "Shafts, pins, the member with the pins, the hub and the casing's seats are rigid: of members only the toothed rim and "
-        "the rollers yield, in the contacts alone; reactions and modes know springs in A, B, O, C and the mounts."
+        "Shafts, the member with the pins, the hub and the casing's seats are rigid, pins but for "
+        "rollers.seat_stiffness: of members only the toothed rim and the rollers yield, in the contacts alone; "
+        "reactions and modes know springs in A, B, O, C and the mounts."
     ),
     "uneven output": "The joint at O is a constant-velocity one that gives way along z: it holds the satellite "
     "without a moment across its axis, but for half of the tilting moment that the output torque has there.",

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from trochoid.drives.exact import RPM, exact
+from trochoid.drives.exact import RPM, cycloid_profile, exact
 from trochoid.drives.rv.design import ROLES
 from trochoid.drives.rv.stages import Stages
 from trochoid.kinematics.errors import TrochoidError
@@ -44,19 +44,7 @@ def _fail_if_ways_differ(s: Stages) -> None:
 
 def profile(s: Stages) -> Quantity:
     """Numbers of the tooth profiles of both stages."""
-    flank = s.feasible.flank
-    bend = flank.curvature(np.linspace(0, np.pi / flank.lobes, 2001))
-    cycloid = {
-        "trochoid_ratio": (flank.trochoid_ratio, ""),
-        "pitch_radius_disc": (1e3 * flank.eccentricity * flank.lobes, "mm"),
-        "pitch_radius_pins": (1e3 * flank.eccentricity * flank.pins, "mm"),
-        "crest_radius": (1e3 * (flank.pin_circle_radius + flank.eccentricity - flank.pin_radius), "mm"),
-        "root_radius": (1e3 * (flank.pin_circle_radius - flank.eccentricity - flank.pin_radius), "mm"),
-        "pin_radius_undercut_limit": (1e3 * flank.undercut_radius, "mm"),
-        "least_convex_radius": (1e3 / float(bend.max()), "mm"),
-        "least_concave_radius": (-1e3 / float(bend.min()), "mm"),
-    }
-    parts: dict[str, Parts | Quantity] = {"cycloid": _parts(cycloid)}
+    parts: dict[str, Parts | Quantity] = {"cycloid": _parts(cycloid_profile(s.feasible.flank))}
     stage = s.design.first
     parts["first_stage"] = _parts(
         {
