@@ -61,7 +61,7 @@ def test_everything_is_labelled(whole: xarray.Dataset) -> None:
     for shown in whole.data_vars.values():
         if "figure" in shown.attrs:
             captions.setdefault(shown.attrs["figure"], set()).add(shown.attrs["caption"])
-    assert len(captions) == 10
+    assert len(captions) == 12
     assert all(len(said) == 1 and said.pop().endswith(".") for said in captions.values())
 
 

@@ -130,8 +130,7 @@ def test_no_friction_is_the_frictionless_drive() -> None:
     plain = solve_positions(assembly(made, "level0", level_of(made).elastic, ANGLES * made.mesh_speed))
     assert np.array_equal(found.ring_force[:, 0], plain.touches["ring0"].force)
     assert not found.ring.any()
-    asked = ("accuracy.facets_per_lobe=4", "ask.positions=4")
-    assert Run(rubbing(*asked, ring=0.0, output=0.0, effects=HAND)).efficiency.value == 1.0
+    assert Run(rubbing("ask.positions=4", ring=0.0, output=0.0, effects=HAND)).efficiency.value == 1.0
 
 
 @pytest.mark.exact

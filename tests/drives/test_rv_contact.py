@@ -305,7 +305,7 @@ def test_answers_of_a_whole_run() -> None:
     made = whole()
     found = made.outcome
     assert all(check.ok for check in found.checks)
-    assert len(found.checks) == 9
+    assert len(found.checks) == 10
     efficiency = made.efficiency.value
     assert isinstance(efficiency, float)
     assert 0.9 < efficiency < 0.95

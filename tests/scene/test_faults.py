@@ -116,7 +116,7 @@ def faults_of(text: str, *overrides: str | Override) -> tuple[Fault, ...]:
             '"mesh_stiffness"',
             'ask.quantities.0: "mesh_stiffness" is not offered by khv; it offers: ratio, ',
         ),
-        ('"ratio"', '"mass"', 'ask.quantities.24: "mass" stands twice in ask.quantities'),
+        ('"ratio"', '"mass"', 'ask.quantities.25: "mass" stands twice in ask.quantities'),
         ('"ratio"', "3", "ask.quantities.0: given 3; need a text"),
         ("positions = 60", "positions = 0", "ask.positions: given 0; need a whole number from 1 to 100000"),
         (
