@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from trochoid.dynamics.indexing_march import March
 from trochoid.dynamics.indexing_parts import Output, State
 from trochoid.dynamics.pin_law import PinLaw
 from trochoid.kinematics.errors import NotConverged
+from trochoid.kinematics.readable import readable
 from trochoid.kinematics.types import Array
 
 STEPS = 64  # per shortest period
@@ -79,21 +80,21 @@ class Response:
 def respond(index: Index, output: Output, law: PinLaw, steps: int = STEPS) -> Response:
     """March through an index and its dwell, from rest without load; `steps` per shortest period.
 
-    Contact and lock are damped by β of their stiffness, as the shaft is, but no more than the wheel on them critically:
+    Contact, lock and shaft are damped by β of their stiffness, but no more than the masses on each alone critically:
     beyond that a wall would strike a pin that hardly moves.
     Raises NotConverged where an index holds more periods than can be followed.
     """
-    reach = index.sample(np.linspace(0.0, index.duration, 65))[0]
-    stiffest = max(output.lock, float((np.sin(reach) ** 2 * law.stiffest(reach)).max()))
-    fastest = output.frequencies_at(stiffest)[-1]
+    stiffest = stiffest_of(index, output, law)
     damping = min(output.damping, 2.0 / math.sqrt(stiffest / output.inertia))
-    h = 2.0 * math.pi / (steps * fastest)
-    decay = max(damping * fastest**2, output.damping * output.shaft_frequency**2)
+    if output.shaft > 0.0:
+        output = replace(output, damping=min(output.damping, 2.0 / output.shaft_frequency))
+    h = 2.0 * math.pi / (steps * output.frequencies_at(stiffest)[-1])
+    decay = damping * stiffest / output.inertia + output.damping * output.shaft_frequency**2
     if decay > 0.0:
-        h = min(h, 2.0 / decay)  # else the method is not stable
+        h = min(h, 2.0 / decay)  # else the method is not stable: of few steps, strongly damped
     count = math.ceil(index.duration / h)
     if count > MOST:
-        raise NotConverged(_too_many(index, output.frequencies_at(stiffest), count / MOST, steps))
+        raise NotConverged(_too_many(index, output, stiffest, count, steps))
     at = index.sample(np.linspace(0.0, index.duration, 2 * count + 1))
     start = (0.0, float(at[1][0]), 0.0, 0.0, 0.0, 0.0)
     march = March(output, law.torque(damping))
@@ -104,21 +105,32 @@ def respond(index: Index, output: Output, law: PinLaw, steps: int = STEPS) -> Re
     return Response(_course(march, at, h_index, states), dwell, held)
 
 
-def _too_many(index: Index, modes: tuple[float, ...], over: float, steps: int) -> str:
+def stiffest_of(index: Index, output: Output, law: PinLaw) -> float:
+    """Return the largest stiffness (N·m/rad) that contact and lock have about the wheel's axis, over an index."""
+    reach = index.sample(np.linspace(0.0, index.duration, 65))[0]
+    return max(output.lock, float((np.sin(reach) ** 2 * law.stiffest(reach)).max()))
+
+
+def _too_many(index: Index, output: Output, stiffest: float, count: int, steps: int) -> str:
     """Say what an index has too many of, and what to change."""
-    period = 2.0 * math.pi / modes[-1]
-    lowest = index.duration * modes[0] / (2.0 * math.pi)
-    speed = f"take {over:.3g} times the speed"
+    modes, over, turn = output.frequencies_at(stiffest), count / MOST, 2.0 * math.pi
+    periods, lowest = (index.duration * x / turn for x in (modes[-1], modes[0]))
+    speed = f"take {readable(over)} times the speed"
     if lowest > RIGID or len(modes) == 1:
         end = f"so slow a drive is as good as rigid: leave the vibration out, or {speed}"
+    elif output.shaft > stiffest:
+        end = (
+            f"they are those of wheel and load on the output shaft, which is {readable(output.shaft / stiffest)} times "
+            f"as stiff as pin and slot: leave out its stiffness, and it is rigid, or {speed}"
+        )
     else:
         end = (
-            f"its lowest mode, the load on the shaft, has {lowest:.3g} of its own, the wheel on its pin is that much "
-            f"faster: give the wheel {over**2:.3g} times the inertia, or {speed}"
+            f"its lowest mode, the load on the shaft, has {readable(lowest)} of its own, the wheel on its pin is that "
+            f"much faster: give the wheel {readable(over**2)} times the inertia, or {speed}"
         )
     return (
-        f"response of the wheel: the index lasts {index.duration / period:.3g} of its shortest natural periods "
-        f"({period:.3g} s), and no more than {MOST // steps} are followed; {end}"
+        f"response of the wheel: the index lasts {readable(periods)} of its shortest natural periods "
+        f"({turn / modes[-1]:.3g} s), and no more than {readable(periods / over)} are followed; {end}"
     )
 
 

@@ -130,8 +130,9 @@ def attempt(problem: Problem, start: Solution | None, most: int = PIVOTS) -> Att
             break
         work = taken(_softened(work, found), np.flatnonzero(~finished))
     else:
-        done.append((work.rows, taken(solution, np.flatnonzero(~finished))))
-        for row, message in zip(work.rows, _reasons(work, found), strict=True):
+        left = np.flatnonzero(~finished)  # `work` holds no other any more, what was found last does
+        done.append((work.rows, taken(solution, left)))
+        for row, message in zip(work.rows, _reasons(work, taken(found, left)), strict=True):
             faults[int(row)] = message
     return Attempt(joined(done), faults)
 

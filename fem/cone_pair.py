@@ -14,9 +14,8 @@ import numpy as np
 from trochoid.fem.cone_slices import Slices
 from trochoid.kinematics.curve import ArcLength
 from trochoid.kinematics.sphere_tooth import SphereTooth
-from trochoid.kinematics.sphere_tooth_gap import opened
+from trochoid.kinematics.sphere_tooth_gap import gap_of
 from trochoid.kinematics.spherical import angle_between, turn, unit
-from trochoid.kinematics.spherical_curve import foot_point
 from trochoid.kinematics.types import Array, BoolArray, IntArray
 
 RIGID = np.eye(6)  # rotations x, y, z about O, then translations x, y, z
@@ -76,12 +75,11 @@ class RollerPair:
         nominal = self.tooth.contact_parameter(self.rollers, self.crank[:, None])
         before = self.tooth.center_path(nominal)
         moved = turn(_turning(-step[:, :3])[:, None], before)
-        axis, shape = before + moved, nominal.shape
-        foot, _ = foot_point(self.tooth, axis.reshape(-1, 3), nominal.ravel())
-        parameter, opening = opened(self.tooth, nominal, moved, foot.reshape(shape))
+        parameter, opening = gap_of(self.tooth, nominal, moved)
         parameter, off = self._kept(parameter)
         point, normal = self.tooth.point(parameter), self.tooth.normal(parameter)
         if off.any():  # the nearest point is the edge, and what it presses points at the axis
+            axis = before + moved
             away = axis - np.sum(axis * point, axis=-1, keepdims=True) * point
             normal = np.where(off[..., None], unit(away), normal)
             opening = np.where(off, angle_between(axis, point) - self.tooth.pin_angle, opening)

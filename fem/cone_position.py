@@ -25,6 +25,7 @@ STEPS, LONGEST = 60, 300
 NEARLY = 1e-2  # of the largest force: what settles slowly is below that after STEPS
 SETTLED = 1e-10  # of the largest force
 ROUNDING = 1e-14  # of the gaps: they are not known better
+ROOM = 4e8  # bytes for what pressed slices do to each other, at all positions that are solved side by side
 MOVED = 1e-6  # rad or m, over which arms and laws are differenced
 
 
@@ -43,6 +44,8 @@ def solve_cone(
     Raises NotConverged with the row of the position.
     """
     parts = []
+    pressed = 0.5 * len(assembly.pair.rollers) * len(assembly.rim.slices.middle)
+    at_once = max(1, min(at_once, int(ROOM / (8.0 * pressed**2))))
     for first in range(0, len(assembly.load), at_once):
         rows = np.arange(first, min(first + at_once, len(assembly.load)))
         some = replace(assembly, pair=assembly.pair.rows(rows), load=assembly.load[rows])

@@ -11,9 +11,7 @@ from trochoid.fem.cone_flank import Flank
 from trochoid.fem.cone_layers import Layers
 from trochoid.fem.cone_rim import Rim
 from trochoid.fem.cone_slices import Slices
-from trochoid.kinematics.curve import ArcLength
 from trochoid.kinematics.spherical import rotation
-from trochoid.kinematics.spherical_curve import foot_point
 from trochoid.kinematics.types import Array, IntArray
 
 ACROSS = np.sin(0.5 * math.pi * np.linspace(-1.0, 1.0, 17))  # closer where the pressure falls to nothing
@@ -103,17 +101,6 @@ def ellipse(middle: Array, axes: Array, pressure: float) -> Strips:
         distance,
         np.concatenate(cells, axis=1),
     )
-
-
-def flank_places(rim: Rim, point: Array, near: Array) -> Array:
-    """Return the arc lengths (...), rad, from the start of tooth 0, of points (..., 3) of the flank.
-
-    `near` (...) are parameters of the flank near them.
-    """
-    tooth = rim.shape.tooth
-    found, _ = foot_point(tooth, point.reshape(-1, 3), near.ravel())
-    arc = ArcLength(tooth)
-    return np.asarray(arc.length(found).reshape(near.shape) - float(arc.length(rim.shape.start)))
 
 
 def flank_displacement(rim: Rim, moved: Array, place: Array, distance: Array) -> Array:

@@ -8,9 +8,11 @@ factors, takes as long or longer (`python -m benchmarks scaling`).
 from __future__ import annotations
 
 import os
+import sys
 import weakref
 from collections.abc import Callable
 from importlib.util import find_spec
+from pathlib import Path
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, tril, triu
@@ -96,6 +98,12 @@ def _cholmod(matrix: csc_matrix) -> Solve:
 
 
 def _pardiso(matrix: csc_matrix) -> Solve:
+    if (
+        "PYPARDISO_MKL_RT" not in os.environ
+    ):  # where wheels put the library: else all of the prefix is searched
+        at_hand = sorted(Path(sys.prefix).glob("lib/libmkl_rt.so*"))
+        if at_hand:
+            os.environ["PYPARDISO_MKL_RT"] = str(at_hand[0])
     from pypardiso import PyPardisoSolver
     from pypardiso.pardiso_wrapper import PyPardisoError
 

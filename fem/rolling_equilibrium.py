@@ -198,18 +198,33 @@ def _fail_if_not_reached(goal: _Goal, state: RollingState, iterations: int) -> N
     if reached.all() and not beyond.any():
         return
     row = int(np.flatnonzero(~reached | beyond)[0])
-    load = goal.target[row].tolist()
+    load = _said(goal.target[row])
     why = goal.bearing.refusal(goal.target[row], goal.free)
     if why:
         raise Infeasible(f"bearing: {why}")
     if reached[row]:
         raise Infeasible(
-            f"bearing: under load {load} a ball would leave the part of its grooves that carries (displacement "
-            f"{state.displacement[row].tolist()}); give a smaller load, more axial load, or hold z"
+            f"bearing: under {load} a ball would leave the part of its grooves that carries, as the inner ring moves "
+            f"by {_moved(state.displacement[row])}; give a smaller load, more axial load, or hold z"
         )
     left = float(np.linalg.norm(goal.rest(state)[row]))
     raise NotConverged(
-        f"bearing: no equilibrium under load {load} within {iterations} iterations (residual {left:.3g} N); "
+        f"bearing: no equilibrium under {load} within {iterations} iterations (residual {left:.3g} N); "
         f"try more iterations (max_iterations), a larger tolerance, a larger load or a smaller clearance",
         row if len(goal.target) > 1 else None,
     )
+
+
+def _said(load: Array) -> str:
+    """Say a load (5,)."""
+    force, moment = (", ".join(f"{v + 0.0:.4g}" for v in values) for values in (load[:3], load[3:]))
+    tilting = f" and (M_x, M_y) = ({moment}) N m" if load[3:].any() else ""
+    return f"the load (F_x, F_y, F_z) = ({force}) N{tilting}"
+
+
+def _moved(displacement: Array) -> str:
+    """Say a displacement (5,)."""
+    along, tilt = (
+        ", ".join(f"{v + 0.0:.4g}" for v in 1e6 * values) for values in (displacement[:3], displacement[3:])
+    )
+    return f"({along}) µm" + (f" and ({tilt}) µrad" if displacement[3:].any() else "")

@@ -15,11 +15,12 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csc_matrix, hstack
 
-from trochoid.fem.cone_body import ConeBody, cone_body, factored, product, read
+from trochoid.fem.cone_body import ConeBody, cone_body, product, read
 from trochoid.fem.cone_flank import SPREAD, Flank, flank, load_at
 from trochoid.fem.cone_layers import Layers, integrals, layers
 from trochoid.fem.cone_sharp import sharpened
 from trochoid.fem.cone_slices import Slices, between, finer
+from trochoid.fem.cone_smooth import smoothed
 from trochoid.fem.linear_solver import Solve
 from trochoid.fem.material import Material
 from trochoid.fem.point_contact import Bump, smooth_part
@@ -28,15 +29,15 @@ from trochoid.geometry.slotted import HUB, WALL, SlottedWheel, slotted_outline
 from trochoid.geometry.sphere_mesh import SphereMesh, mesh_sphere, sphere_quality
 from trochoid.geometry.sphere_outline import SphereOutline
 from trochoid.kinematics.errors import TrochoidError
-from trochoid.kinematics.types import Array, IntArray
+from trochoid.kinematics.types import Array, BoolArray, IntArray
 
-EDGE = (
-    0.06  # of the thickness: nearer to an end of the wall a contact counts as there; real edges are rounded
-)
+EDGE = 0.06  # of the thickness: nearer to an end of the wall than about that there is no station
+COUNTS = 1.5  # of that length: nearer to the mouth a contact counts as there; real edges are rounded
 NARROW = 0.05  # of the pin's radius, the same for thin wheels: contacts are narrower
 AT_EDGE = 2.5  # facets on that length, so that a station's load lies on the wall
 MOST = 26  # facets along a wall, on the level with 8 of them over the thickness
 STATIONS = 8
+NEAR = 0.5  # of the thickness: farther from the wall than that displacements are cubics along the rays
 RETRIES, SLOWER = 2, 0.7  # of a mesh that folds, and by how much slower elements then grow
 SLICES, LAYERS = 12, (2, 3, 4, 6)
 
@@ -62,6 +63,11 @@ class WallMesh:
         return layers(*ends, self.layers, grading=1.0)
 
     @property
+    def times(self) -> float:
+        """How many times the facets of the coarsest mesh are away from the wall."""
+        return self.facets / 4.0
+
+    @property
     def growth(self) -> float:
         """Growth of elements away from the wall, from one to the next."""
         return 1.0 + 4.2 / self.facets
@@ -73,7 +79,7 @@ class Wall:
 
     `own` (k, f, f) is S in m/N between `slices`, without (2/(πE'))(ln(2/b) + ¼)/Δ of each on itself; `half_width` (k,)
     in rad that of the elements' loads. `kernel` is 2/(πE') in 1/Pa, `ends` (m) where the body ends, `mouth` (rad)
-    where the wall does.
+    where the wall does, and `last` (rad) where contacts beyond count as, on any mesh.
     """
 
     reach: Array
@@ -84,12 +90,13 @@ class Wall:
     poissons_ratio: float
     ends: tuple[float, float]
     mouth: float
+    last: float
     dofs: int
     quality: Quality
 
     def at(self, reach: Array) -> tuple[Array, Array]:
-        """Return S (n, f, f) in m/N and half widths (n, f) in m at angles (n,); beyond the stations the last one's."""
-        found = self._spline(self._place(np.clip(reach, self.reach[0], self.reach[-1])))
+        """Return S (n, f, f) in m/N and half widths (n, f) in m at angles (n,), none taken beyond `last`."""
+        found = self._spline(self._place(np.clip(reach, self.reach[0], self.last)))
         own, half = found[..., :-1], found[..., -1]
         count = len(self.slices.middle)
         return own.reshape(len(reach), count, count), half[:, None] * self.slices.middle
@@ -117,6 +124,7 @@ class WallBody:
     side: Flank
     stations: IntArray
     solve: Solve
+    unknowns: int
 
     def half_width(self) -> Array:
         """Return half widths (k,) of the loads, rad: as far as the ends of the wall at most."""
@@ -138,13 +146,14 @@ def wall_body(
         min((ends[1] - ends[0]) / mesh.facets / ends[1], (wheel.mouth - nearest) / mesh.facets),
         (wheel.mouth - wheel.bottom) * 8.0 / (MOST * mesh.facets),
     )
-    edge = max(EDGE * (ends[1] - ends[0]) / ends[1], NARROW * wheel.opening)
-    plane = _meshed(slotted_outline(wheel, size, min(size, edge / AT_EDGE), nearest), mesh.growth)
+    edge = edge_of(wheel, ends)
+    plane = _meshed(
+        slotted_outline(wheel, size, min(size, edge / AT_EDGE), nearest, times=mesh.times), mesh.growth
+    )
     body = cone_body(plane, mesh.radial(ends), material, held=(HUB,))
     side = flank(plane, wheel.wall, WALL, SPREAD)
-    return WallBody(
-        wheel, body, side, _stations(side, wheel, nearest, edge), factored(body, ~body.held, solver)
-    )
+    near = _beside(plane, NEAR * (ends[1] - ends[0]) / ends[1])
+    return WallBody(wheel, body, side, _stations(side, wheel, nearest, edge), *smoothed(body, near, solver))
 
 
 def press_stations(made: WallBody, parts: int = 1, point: float | None = None) -> Wall:
@@ -163,7 +172,8 @@ def press_stations(made: WallBody, parts: int = 1, point: float | None = None) -
         body.material.poissons_ratio,
         ends,
         made.wheel.mouth,
-        body.size,
+        made.wheel.mouth - COUNTS * edge_of(made.wheel, ends),
+        made.unknowns,
         sphere_quality(body.mesh),
     )
     if point is not None:
@@ -197,6 +207,17 @@ def _meshed(outline: SphereOutline, growth: float) -> SphereMesh:
         except TrochoidError:
             growth = 1.0 + SLOWER * (growth - 1.0)
     return mesh_sphere(outline, growth)
+
+
+def edge_of(wheel: SlottedWheel, ends: tuple[float, float]) -> float:
+    """Return the angle (rad) from an end of the wall within which there are no stations."""
+    return max(EDGE * (ends[1] - ends[0]) / ends[1], NARROW * wheel.opening)
+
+
+def _beside(plane: SphereMesh, distance: float) -> BoolArray:
+    """Return which nodes (n,) are within a distance (rad) of the pressed wall."""
+    wall = plane.points[np.unique(plane.edges[WALL])]
+    return np.asarray((plane.points @ wall.T).max(axis=1) >= np.cos(distance))
 
 
 def _stations(side: Flank, wheel: SlottedWheel, nearest: float, edge: float) -> IntArray:

@@ -1,12 +1,23 @@
-"""Measures of a box casing that cannot be: each refusal names the limit and the nearest feasible value."""
+"""Measures of a box casing that cannot be: each refusal names the limit and the nearest feasible value.
+
+Walls below a 200th of the box are plates that no mesh of solid elements answers for; a boss thinner than the facets of
+its bore bulge cannot be meshed; edges far longer than the walls are thick or the box is wide leave a mesh that says
+nothing.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from itertools import combinations
 
 from trochoid.geometry.casing_box import Bore, BoxCasing, MountPlace, inner_face, outer_face
 from trochoid.kinematics.errors import Infeasible
+
+THIN_WALL = 1.0 / 200.0  # of the largest side of the box: the least thickness of walls and base plate
+THIN_BOSS = 1.02  # radii of its bore: a bore is a polygon of 16 sides, which is 1/cos(pi/16) wide
+LONG_EDGE = 8.0  # walls: the longest edges of the mesh
+EDGES = 3.0  # the least of them along the shortest side of the box
 
 
 def fail_if_impossible(casing: BoxCasing) -> None:
@@ -31,6 +42,13 @@ def _fail_unless_hollow(casing: BoxCasing) -> None:
         raise Infeasible(
             f"casing: the flange cannot reach {_mm(*casing.flange)} mm beyond the box; give 0 or more"
         )
+    thin = THIN_WALL * max(casing.size)
+    for name, value in (("wall", casing.wall), ("base", casing.plate)):
+        if value < thin:
+            raise Infeasible(
+                f"casing: a {name} of {1e3 * value:g} mm is too thin for a body of solid elements; with sides up to "
+                f"{1e3 * max(casing.size):g} mm, give {_up(thin)} mm or more"
+            )
     solid = (2.0 * casing.wall, casing.wall + casing.plate, 2.0 * casing.wall)
     for axis, side, walls in zip("xyz", casing.size, solid, strict=True):
         if not side > walls:
@@ -48,6 +66,11 @@ def _fail_unless_bore_fits(casing: BoxCasing, bore: Bore) -> None:
             f"casing: {bore.name} needs 0 < radius < boss, given a bore of {1e3 * bore.radius:g} mm in a boss of "
             f"{1e3 * bore.boss:g} mm"
         )
+    if bore.boss < THIN_BOSS * bore.radius:
+        raise Infeasible(
+            f"casing: the boss of {bore.name}, radius {1e3 * bore.boss:g} mm, is too thin round a bore of "
+            f"{1e3 * bore.radius:g} mm; give {_up(THIN_BOSS * bore.radius)} mm or more"
+        )
     inside = casing.size[2] - casing.wall
     if not casing.wall <= bore.length < inside:
         raise Infeasible(
@@ -59,12 +82,21 @@ def _fail_unless_bore_fits(casing: BoxCasing, bore: Bore) -> None:
         "x": (low[0] + wall + bore.boss, high[0] - wall - bore.boss, bore.x),
         "y": (low[1] + casing.plate + bore.boss, high[1] - wall - bore.boss, bore.y),
     }
-    for axis, (least, most, given) in room.items():
+    tightest = sorted(room.items(), key=lambda each: min(each[1][2] - each[1][0], each[1][1] - each[1][2]))
+    for axis, (least, most, given) in tightest:
         if not least < given < most:
             largest = bore.boss - max(least - given, given - most)
+            advice = []
+            if largest > THIN_BOSS * bore.radius:
+                advice.append(f"there its radius must be below {1e3 * largest:g} mm")
+            if least < most:
+                advice.append(f"at that radius {axis} must be between {_mm(least)} and {_mm(most)} mm")
+            widest = bore.boss + 0.5 * (most - least)
+            if not advice and widest > 0.0:
+                advice.append(f"between these walls its radius must be below {1e3 * widest:g} mm anywhere")
             raise Infeasible(
                 f"casing: the boss of {bore.name}, radius {1e3 * bore.boss:g} mm at {axis} = {1e3 * given:g} mm, meets "
-                f"a wall; there its radius must be below {1e3 * largest:g} mm"
+                f"a wall; {', or '.join(advice)}"
             )
 
 
@@ -75,10 +107,25 @@ def _fail_unless_mount_fits(casing: BoxCasing, mount: MountPlace) -> None:
         reach = casing.flange[i // 2]
         least, most = casing.low[i] - reach + mount.radius, casing.high[i] + reach - mount.radius
         if not least < given < most:
+            allowed = f"allowed is between {_mm(least)} and {_mm(most)} mm"
+            if not least < most:
+                widest = mount.radius + 0.5 * (most - least)
+                allowed = f"the plate has room for a radius below {_mm(widest)} mm"
             raise Infeasible(
                 f"casing: {mount.name}, radius {1e3 * mount.radius:g} mm, is not on the base plate at {'xyz'[i]} = "
-                f"{1e3 * given:g} mm; allowed is between {1e3 * least:g} and {1e3 * most:g} mm"
+                f"{_mm(given)} mm; {allowed}"
             )
+
+
+def fail_if_edge_too_long(casing: BoxCasing, edge: float) -> None:
+    """Raise Infeasible for edges of the mesh, m, that are too long for walls and box."""
+    by_wall, by_side = LONG_EDGE * casing.wall, min(casing.size) / EDGES
+    if edge > min(by_wall, by_side):
+        why = f"{LONG_EDGE:g} walls" if by_wall < by_side else "a third of the shortest side of the box"
+        raise Infeasible(
+            f"casing: edges of the mesh of {1e3 * edge:g} mm are longer than {why}; give mesh_edge = "
+            f"{_down(min(by_wall, by_side))} mm or less"
+        )
 
 
 def _fail_if_overlapping(casing: BoxCasing) -> None:
@@ -108,3 +155,17 @@ def _fail_if_near(what: str, apart: float, least: float) -> None:
 
 def _mm(*values: float) -> str:
     return ", ".join(f"{1e3 * value:g}" for value in values)
+
+
+def _up(value: float) -> str:
+    """Return a least value in mm, with four digits or fewer, and not less than it."""
+    return _rounded(value, math.ceil)
+
+
+def _down(value: float) -> str:
+    return _rounded(value, math.floor)
+
+
+def _rounded(value: float, whole: Callable[[float], int]) -> str:
+    step = 10.0 ** (math.floor(math.log10(1e3 * value)) - 3)
+    return f"{step * whole(round(1e3 * value / step, 6)):.6g}"

@@ -28,6 +28,7 @@ _BESIDE, _ROUGH = 2, 4  # how much coarser the neighbours and all other teeth ar
 _TURNED = 0.4  # facets per radian that a fillet turns, times the level
 _TURN = 0.58  # rad that a facet of any fillet turns at the most, or elements fold
 _FEWEST = 12  # facets on the rim's edge
+_SAME = 1e-6  # of the module: closer breaks are one
 _LEAST_RIM = 0.05  # of the module: a thinner rim has no room for elements
 
 
@@ -112,9 +113,20 @@ def _tooth_breaks(blank: Blank, level: float, coarser: int) -> Array:
     if coarser == 1:
         half.append(_even(ROUND, 0.5 if tooth.full else LAND, max(2, round(level / 4))))
         half += [] if tooth.full else [_land(blank, level)]
-    one = np.unique(np.round(np.concatenate(half), 14))
+    one = _apart(np.unique(np.round(np.concatenate(half), 14)), curve, _SAME * tooth.gear.module)
     mirrored = 1.0 - one[one > 0.0][::-1]
     return np.unique(np.round(np.concatenate((one, mirrored)), 14))
+
+
+def _apart(breaks: Array, curve: GearBoundary, least: float) -> Array:
+    """Leave out breaks whose points are not `least` metres past the one before: at the limit of undercut the fillet
+    meets the involute where that starts, at the base circle, and the involute's first points fall together.
+    """
+    kept = [breaks[0]]
+    for at, point in zip(breaks[1:], curve.point(breaks[1:]), strict=True):
+        if np.linalg.norm(point - curve.point(kept[-1])) > least:
+            kept.append(at)
+    return np.array(kept)
 
 
 def _turn(curve: GearBoundary, low: float, high: float) -> float:

@@ -98,18 +98,19 @@ class PolarOutline(SphereOutline):
 
 
 def slotted_outline(
-    wheel: SlottedWheel, facet: float, edge: float, nearest: float, coarse: float = 4.0
+    wheel: SlottedWheel, facet: float, edge: float, nearest: float, coarse: float = 4.0, times: float = 1.0
 ) -> PolarOutline:
     """Return the outline with facets of the size `facet` (rad) on the pressed wall from `nearest` (rad) to its mouth.
 
-    They shrink to the size `edge` (rad) at both ends. Other walls have facets `coarse` times as long.
+    They shrink to the size `edge` (rad) at both ends. Other walls have facets `coarse` times as long.  Facets that
+    follow from the shape alone, of rim, hub, round ends and slim walls, are `times` as many.
     Sides: "wall", "hub" and "free0" and on.
     """
     breaks = wall_breaks(wheel, facet, edge, nearest)
     up = _side(WALL, wheel.wall.point, breaks)
-    plain = _plain_breaks(wheel, facet * coarse)
-    rounds = np.linspace(-0.5 * math.pi, 0.5 * math.pi, 7)
-    finer = _round_breaks(float(breaks[1] - breaks[0]) / wheel.opening)
+    plain = _plain_breaks(wheel, facet * coarse, times)
+    rounds = np.linspace(-0.5 * math.pi, 0.5 * math.pi, round(6.0 * times) + 1)
+    finer = _round_breaks(float(breaks[1] - breaks[0]) / wheel.opening, times)
     sides: list[Side] = []
 
     def free(curve: Callable[[Array], Array], breaks: Array) -> None:
@@ -123,12 +124,12 @@ def slotted_outline(
             free(_turned(wheel.wall.point, azimuth), plain)
         start, end = azimuth + wheel.edge, following - wheel.edge
         finest = float(breaks[-1] - breaks[-2]) if k == 0 else float(plain[-1] - plain[-2])
-        free(_parallel(wheel.rim), _rim_breaks(start, end, finest / math.sin(wheel.rim)))
+        free(_parallel(wheel.rim), _rim_breaks(start, end, finest / math.sin(wheel.rim), times))
         free(_turned(_mirrored(wheel.wall.point), following), plain[::-1])
         free(_turned(_bottom(wheel), following), rounds if k < len(azimuths) - 2 else finer)
     gap = wheel.bottom - wheel.opening - wheel.hub
     around = min(96, max(16, 4 * (len(azimuths) - 1), math.ceil(2.0 * math.pi * math.sin(wheel.hub) / gap)))
-    hub = np.linspace(0.0, 2.0 * math.pi, around + 1)
+    hub = np.linspace(0.0, 2.0 * math.pi, round(times * around) + 1)
     return PolarOutline((tuple(sides), (_side(HUB, _parallel(wheel.hub), hub),)), np.eye(3))
 
 
@@ -143,21 +144,26 @@ def wall_breaks(wheel: SlottedWheel, facet: float, edge: float, nearest: float) 
     return _by_size(wheel.bottom, wheel.mouth, size, 4)
 
 
-def _plain_breaks(wheel: SlottedWheel, facet: float) -> Array:
-    count = max(2, min(5, round((wheel.mouth - wheel.bottom) / facet)))
+def _plain_breaks(wheel: SlottedWheel, facet: float, times: float) -> Array:
+    count = max(round(2.0 * times), min(round(5.0 * times), round((wheel.mouth - wheel.bottom) / facet)))
     return np.linspace(wheel.bottom, wheel.mouth, count + 1)
 
 
-def _rim_breaks(start: float, end: float, finest: float) -> Array:
+def _rim_breaks(start: float, end: float, finest: float, times: float) -> Array:
     """Return azimuths, fine at the start, where the pressed wall is, and growing with the distance from it."""
-    most = 0.5 * min(end - start, 1.0)
-    return _by_size(start, end, lambda t: np.minimum(finest + SLOPE * (t - start), most), 3)
+    most, slope = 0.5 * min(end - start, 1.0) / times, SLOPE / times
+    return _by_size(start, end, lambda t: np.minimum(finest + slope * (t - start), most), round(3.0 * times))
 
 
-def _round_breaks(finest: float) -> Array:
+def _round_breaks(finest: float, times: float) -> Array:
     """Return angles round a slot's end that meets the pressed wall at the last of them."""
-    quarter = 0.5 * math.pi
-    return _by_size(-quarter, quarter, lambda t: np.minimum(finest + SLOPE * (quarter - t), 0.5), 6)
+    quarter, slope = 0.5 * math.pi, SLOPE / times
+    return _by_size(
+        -quarter,
+        quarter,
+        lambda t: np.minimum(finest + slope * (quarter - t), 0.5 / times),
+        round(6.0 * times),
+    )
 
 
 def _by_size(first: float, last: float, size: Callable[[Array], Array], least: int) -> Array:

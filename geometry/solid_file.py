@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import meshio
 
 SOLIDS = {"tetra": 4, "tetra10": 10, "hexahedron": 8, "hexahedron20": 20}
+EMPTY = "holds no volume elements; write the body's mesh of tetrahedra or bricks"
 NOT_READ = ("wedge", "pyramid", "hexahedron27", "hexahedron24", "tetra20", "polyhedron")
 
 
@@ -32,7 +33,14 @@ def read_solid(path: Path | str, scale: float = 1.0, places: Mapping[str, Place]
     mesh = _read(path)
     if not scale > 0.0:
         raise TrochoidError(f"scale must be above 0 metres per unit of the file, given {scale}")
+    if not len(mesh.points) or not any(len(block.data) for block in mesh.cells):
+        raise TrochoidError(f"{path} {EMPTY}")
     kind = _one_kind(path, mesh)
+    if not np.isfinite(mesh.points).all():
+        raise TrochoidError(
+            f"{path}: {int((~np.isfinite(mesh.points)).any(axis=1).sum())} of {len(mesh.points)} nodes have "
+            "coordinates that are no numbers; write the mesh again"
+        )
     elements = np.concatenate([block.data for block in mesh.cells if block.type == kind]).T
     found = solid_mesh(scale * mesh.points, elements.astype(np.intp), _sets(mesh))
     return find(found, places) if places else found
@@ -41,16 +49,24 @@ def read_solid(path: Path | str, scale: float = 1.0, places: Mapping[str, Place]
 def _read(path: Path | str) -> meshio.Mesh:
     import meshio
 
-    said = (
-        io.StringIO()
-    )  # meshio prints what its readers miss, and ends the program where none understands the file
+    if Path(path).is_dir():
+        raise TrochoidError(f"{path} is a folder; give the file of the mesh")
+    if not Path(path).is_file():
+        raise TrochoidError(f"{path}: no such file; give the file of the mesh")
+    if not Path(path).stat().st_size:
+        raise TrochoidError(f"{path} is empty; it {EMPTY}")
+    if not Path(path).name.lower().endswith(tuple(meshio.extension_to_filetypes)):
+        raise TrochoidError(
+            f"{path}: no format of a mesh has this ending; give one that meshio knows, as .msh or .inp"
+        )
+    # meshio prints what its readers miss, and ends the program where none understands the file
     try:
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             return meshio.read(path)
     except (Exception, SystemExit) as fault:
-        why = str(fault) if isinstance(fault, Exception) else " ".join(said.getvalue().split())
         raise TrochoidError(
-            f"{path}: the mesh cannot be read ({why}); give a format that meshio knows"
+            f"{path}: the mesh cannot be read: it holds no elements, is damaged, or is in another format than its name "
+            "says; write a volume mesh of tetrahedra or bricks in a format that meshio knows"
         ) from fault
 
 

@@ -122,25 +122,40 @@ class SphereTooth:
 
     def _pin(self, t: Array) -> Array:
         """Axis u (..., 3) of pin 0 in the frame of the arm."""
-        axis = np.array([math.sin(self.polar_angle), 0.0, math.cos(self.polar_angle)])
-        if self.pins_on == "ring":
-            return turn(rotation(2, -t), axis)
-        return turn(rotation(1, self.nutation) @ rotation(2, -self._nu * t), axis)
+        on_ring = self.pins_on == "ring"
+        turned = t if on_ring else self._nu * t
+        sine, level = math.sin(self.polar_angle), np.full(np.shape(t), math.cos(self.polar_angle))
+        u = np.stack([sine * np.cos(turned), -sine * np.sin(turned), level], axis=-1)
+        return u if on_ring else np.asarray(u @ rotation(1, self.nutation).T)
 
     def _carried(self, t: Array, vectors: Array) -> Array:
         """Vectors (..., 3) from the frame of the arm to that of the flank's body."""
         if self.pins_on == "ring":
-            return turn(rotation(2, self._nu * t) @ rotation(1, -self.nutation), vectors)
-        return turn(rotation(2, t), vectors)
+            t, vectors = self._nu * t, vectors @ rotation(1, self.nutation)
+        c, s = np.cos(t), np.sin(t)
+        x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
+        return np.stack([c * x - s * y, s * x + c * y, np.broadcast_to(z, np.shape(c * x))], axis=-1)
+
+    def _across(self, u: Array) -> tuple[Array, Array]:
+        """W×u (..., 3) and its length."""
+        x, y, z = self._rotation_velocity()
+        across = u @ np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+        return across, np.sqrt(np.sum(across * across, axis=-1))
 
     def _trihedron(self, p: npt.ArrayLike) -> tuple[Array, Array, Array, Array]:
         """Pin axis u, N and the path's tangent for growing t, (..., 3) in the flank's frame, and |W×u|."""
         t = self.crank_angle(p)
         u, W = self._pin(t), self._rotation_velocity()
-        across = np.cross(W, u)
-        size = np.linalg.norm(across, axis=-1)
+        across, size = self._across(u)
+        normal = (W - (u @ W)[..., None] * u) / size[..., None]
         tangent = across / size[..., None]
-        return self._carried(t, u), self._carried(t, np.cross(u, tangent)), self._carried(t, tangent), size
+        u, normal, tangent = self._carried(t, np.stack([u, normal, tangent]))
+        return u, normal, tangent, size
+
+    def path_frame(self, p: npt.ArrayLike) -> tuple[Array, Array, Array]:
+        """Pin axis, N and the path's unit tangent for growing p, (..., 3) in the flank's frame."""
+        u, N, tangent, _ = self._trihedron(p)
+        return u, N, self.difference * tangent
 
     def center_path(self, p: npt.ArrayLike) -> Array:
         """Axis of the pin in the frame of the flank, unit vectors (..., 3)."""
@@ -157,15 +172,13 @@ class SphereTooth:
 
     def path_speed(self, p: npt.ArrayLike) -> Array:
         """|du/dp| = z2 |W×u| of the pin's axis along its path, rad."""
-        speed: Array = self.satellite_teeth * self._trihedron(p)[3]
+        speed: Array = self.satellite_teeth * self._across(self._pin(self.crank_angle(p)))[1]
         return speed
 
     def center_path_curvature(self, p: npt.ArrayLike) -> Array:
         """Geodesic curvature κ of the pin path, positive towards N, sources §5."""
         u, W = self._pin(self.crank_angle(p)), self._rotation_velocity()
-        bend: Array = (
-            path_curvature(u @ W, *self._coefficients()) / np.linalg.norm(np.cross(W, u), axis=-1) ** 3
-        )
+        bend: Array = path_curvature(u @ W, *self._coefficients()) / self._across(u)[1] ** 3
         return bend
 
     def _coefficients(self) -> tuple[float, float, float]:
@@ -217,11 +230,10 @@ class SphereTooth:
 
     def speed(self, p: npt.ArrayLike) -> Array:
         """|df/dp| = z2 |W×u| (cos r − σκ sin r), rad; negative where the flank is undercut."""
-        size = self._trihedron(p)[3]
         shrink = math.cos(self.pin_angle) - self.side * self.center_path_curvature(p) * math.sin(
             self.pin_angle
         )
-        speed: Array = self.satellite_teeth * size * shrink
+        speed: Array = self.path_speed(p) * shrink
         return speed
 
     def curvature(self, p: npt.ArrayLike) -> Array:

@@ -20,9 +20,19 @@ if TYPE_CHECKING:
 
 FAILED, WRONG = 1, 2
 
+
+class _Place(click.Path):
+    """A path with a name: an empty text, such as an unset variable's, is not the current folder."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value == "":
+            self.fail("is empty; give a name, or leave the option out", param, ctx)
+        return super().convert(value, param, ctx)
+
+
 _OUT = click.option(
     "--out",
-    type=click.Path(path_type=Path),
+    type=_Place(path_type=Path),
     metavar="DIR",
     help="Where results go.  [default: out/NAME of the scene]",
 )
@@ -237,7 +247,12 @@ def view(
 @commands.command()
 @click.argument("scene")
 @click.option(
-    "--to", "target", type=click.Path(path_type=Path), required=True, metavar="FILE", help="Its ending says what."
+    "--to",
+    "target",
+    type=_Place(path_type=Path),
+    required=True,
+    metavar="FILE",
+    help="Its ending says what.",
 )
 @_SET
 def export(scene: str, target: Path, overrides: tuple[str, ...]) -> None:
@@ -272,7 +287,7 @@ def _plan_text(path: str, plan: Plan) -> str:
     """Return a plan as aligned lines: quantities, effects, the stages with their costs."""
     rows = [("stage", "seconds", "MiB", "why")]
     rows += [
-        (s.name, f"{s.seconds:.2g}", f"{s.memory_mib:.0f}", s.why) if s.needed else (s.name, "-", "-", s.why)
+        (s.name, _short(s.seconds), f"{s.memory_mib:.0f}", s.why) if s.needed else (s.name, "-", "-", s.why)
         for s in plan.stages
     ]
     widths = [max(len(row[column]) for row in rows) for column in range(3)]
@@ -288,9 +303,25 @@ def _plan_text(path: str, plan: Plan) -> str:
         "",
         *(f"{a:<{widths[0]}}  {b:>{widths[1]}}  {c:>{widths[2]}}  {why}".rstrip() for a, b, c, why in rows),
         "",
-        f"about {total:.2g} s and {memory:.0f} MiB",
+        f"about {_lasting(total)} and {_large(memory)}",
     ]
     return "\n".join(lines)
+
+
+def _short(seconds: float) -> str:
+    return f"{seconds:.2g}" if seconds < 100.0 else f"{seconds:.0f}"
+
+
+def _lasting(seconds: float) -> str:
+    """Return a span of time in the unit that suits it."""
+    for unit, size in (("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2.0 * size:
+            return f"{seconds / size:.2g} {unit}"
+    return f"{_short(seconds)} s"
+
+
+def _large(mib: float) -> str:
+    return f"{mib:.0f} MiB" if mib < 10240.0 else f"{mib / 1024.0:.0f} GiB"
 
 
 def _wrapped(head: str, names: Sequence[str]) -> str:

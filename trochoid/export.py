@@ -23,11 +23,12 @@ def export(scene: Scene[Any], path: Path) -> str:
     ending = path.suffix.lower()
     if ending not in offered:
         known = ", ".join(f"{name} ({said})" for name, (said, _) in offered.items())
-        raise SceneError(
-            f"--to {path}: given the ending {ending or 'none'!r}; the kind {scene.drive.type} offers {known}"
-        )
+        given = f"given the ending {ending!r}" if ending else "the name has no ending"
+        raise SceneError(f"--to {path}: {given}; the kind {scene.drive.type} offers {known}")
     if path.is_dir():
         raise SceneError(f"--to {path}: that is a folder; give the name of a file")
+    if not path.parent.is_dir():
+        raise SceneError(f"--to {path}: there is no folder {path.parent}; make it first, or name another")
     return offered[ending][1](scene, path)
 
 
@@ -55,7 +56,9 @@ def write_csv(scene: Scene[Any], path: Path) -> str:
         unit = values.attrs.get("units", "")
         parts = values.values.reshape(len(values), -1).T
         names = [str(name)] if len(parts) == 1 else [f"{name}_{x}" for x in values[values.dims[1]].values]
-        columns |= {f"{each} [{unit}]" if unit else each: part for each, part in zip(names, parts, strict=True)}
+        columns |= {
+            f"{each} [{unit}]" if unit else each: part for each, part in zip(names, parts, strict=True)
+        }
     if not columns:
         raise SceneError(f"a {scene.drive.type} has no profile to write in this scene")
     return write_table(path, columns)

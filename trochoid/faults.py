@@ -76,6 +76,11 @@ def nearest(name: str, known: Sequence[str]) -> str | None:
     return plain[found[0]] if found else None
 
 
+def sentence(text: str) -> str:
+    """Return `text` with a full stop, if it has no end of its own."""
+    return text if text.endswith(("?", ".", "!")) else f"{text}."
+
+
 def meant(name: str, known: Sequence[str]) -> str:
     """Return the advice for an unknown name: its nearest match, or all that there is."""
     near = nearest(name, known)

@@ -15,7 +15,7 @@ import numpy as np
 
 from trochoid.kinematics.errors import TrochoidError
 from trochoid.results.vtk import ENDING, Listed, Listing, listed_files, listing
-from trochoid.view_look import Look, add_body, chosen_look, exaggeration
+from trochoid.view_look import EDGES, Look, add_body, chosen_look, exaggeration
 
 __all__ = ["Wanted", "exaggeration", "view"]
 
@@ -24,7 +24,7 @@ Plotter: TypeAlias = Any  # pyvista's; its decorators hide their types
 SCALE = 2  # how much larger pictures in space are drawn than kept, against jagged edges (passes that smooth undo glass)
 LIGHTS = (((0.0, 0.0, 1.0), 0.45), ((-0.6, 0.8, 1.0), 0.45))  # from the eye's side: place and brightness
 FILLED = (0.94, 0.76)  # of the window's width and height by what is shown
-THINNED = 7  # every so many nodes tell how large it is
+ENOUGH = 400  # nodes of a body, evenly among all, tell how large it is
 LOW = -0.02  # of half a window's height: room for the colour bars
 MOVIE_STEP, MOVIE_COLORS, MOVIE_WIDTH = 120, 128, 640  # ms from frame to frame; colours and width of a frame
 _INK = "#1f2933"
@@ -153,9 +153,10 @@ def _draw(
         kept = {listed.name for listed, _ in bodies}
         for name in look.names - kept:
             plotter.remove_actor(name, render=False)
+            plotter.remove_actor(f"{name}{EDGES}", render=False)
         for listed, body in bodies:
             add_body(plotter, listed.name, listed, body, look)
-        said = f"{film.title}\n{_value(film, number)}\n{look.caption}"
+        said = f"{film.title}\n{_value(film, number)}\n{look.caption}".rstrip()
         caption = plotter.add_text(
             said, name="caption", position=(0.02, 0.98), viewport=True, font_size=9 * look.fonts, color=_INK
         )
@@ -180,7 +181,8 @@ def _place_cameras(plotter: Plotter, film: Listing, frames: Any, columns: int) -
         plotter.link_views()
         return
     plotter.subplot(0, 0)
-    points = 1e3 * np.concatenate([body.points[::THINNED] for bodies in frames for _, body in bodies])
+    some = [body.points[:: max(1, body.n_points // ENOUGH)] for bodies in frames for _, body in bodies]
+    points = 1e3 * np.concatenate(some)
     low, high = points.min(axis=0), points.max(axis=0)
     toward = np.array(film.seen_from) / np.linalg.norm(film.seen_from)
     camera = plotter.camera

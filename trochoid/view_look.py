@@ -28,6 +28,10 @@ UNITS = {
     "roller_force": ("force of a roller (N)", 1.0),
 }
 ALONE, BESIDE, POINTED = "viridis", "Blues", "YlOrRd"  # colour maps: stress, the same beside pressure, that
+SWUNG = "YlGnBu"  # of modes, which are pale where and when nothing is displaced
+PHASE = "phase"  # axis of films of modes, whose size is arbitrary
+CREASE = 35.0  # degrees: sharper edges are edges
+EDGES = " edges"  # what the lines of a body are called after it
 _INK = "#1f2933"
 
 
@@ -44,8 +48,8 @@ class Colors:
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """`names` of all bodies of the film, by what factor vectors are drawn, colours by priority, the caption, and how
-    large `fonts` are.
+    """`names` of all bodies of the film, by what factor vectors are drawn, colours by priority, the caption, how
+    large `fonts` are, and whether `edges` are drawn as lines.
     """
 
     names: frozenset[str]
@@ -56,6 +60,7 @@ class Look:
     caption: str
     spatial: bool
     fonts: int = 1
+    edges: bool = False
 
 
 def chosen_look(film: Listing, frames: Frames, shown: str | None = None) -> Look:
@@ -72,8 +77,15 @@ def chosen_look(film: Listing, frames: Frames, shown: str | None = None) -> Look
     factor = exaggeration(size, moved, SLIGHT if wide > 0.0 else VISIBLE)
     widening = exaggeration(size, wide, WIDE) if wide > 0.0 else 1.0
     chosen = tuple(_colors([name, "von_mises"], bodies))
+    names = frozenset(listed.name for frame in frames for listed, _ in frame)
+    if film.axis == PHASE:
+        relative = (
+            Colors(c.data, "relative displacement", 1.0 / c.top if c.top > 0.0 else 1.0, c.top, SWUNG)
+            for c in chosen
+        )
+        return Look(names, 1.0, part, 1.0, tuple(relative), "", film.spatial, edges=film.spatial)
     return Look(
-        frozenset(listed.name for frame in frames for listed, _ in frame),
+        names,
         factor,
         part,
         widening,
@@ -142,11 +154,21 @@ def add_body(plotter: Any, name: str, listed: Listed, body: Body, look: Look) ->
             style["lighting"] = False
         else:
             surface = surface.clean().compute_normals(
-                consistent_normals=False, split_vertices=True, feature_angle=35.0
+                consistent_normals=False, split_vertices=True, feature_angle=CREASE
             )
     else:
         style["lighting"] = False
     actor = plotter.add_mesh(surface, name=name, **style)
+    if look.edges:
+        lines = shape.extract_surface(algorithm="dataset_surface").scale(1e3).clean()
+        lines = lines.extract_feature_edges(CREASE, boundary_edges=True, manifold_edges=False)
+        if lines.n_cells:
+            ink = {
+                "color": _INK,
+                "line_width": 1.2 * look.fonts,
+                "opacity": 0.35 + 0.4 * (listed.opacity >= 1.0),
+            }
+            plotter.add_mesh(lines, name=f"{name}{EDGES}", lighting=False, **ink)
     if "from_middle" in body.point_data:  # as wide as it is drawn, a contact would dip into a hollow flank
         actor.mapper.SetResolveCoincidentTopologyToPolygonOffset()
         actor.mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(*IN_FRONT)

@@ -18,7 +18,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 @pytest.mark.parametrize("kind", ["cycloid", "planetary", "precessional", "rv", "indexer"])
 def test_profiles_as_points(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Every kind writes .csv: finite numbers under names with units; nothing else is left in the folder."""
-    path = tmp_path / "made" / "profile.csv"
+    path = tmp_path / "profile.csv"
     assert main(["export", str(EXAMPLES / f"{kind}.toml"), "--to", str(path)]) == 0
     assert f"wrote {path}" in capsys.readouterr().out
     names, *rows = path.read_text(encoding="utf-8").splitlines()
@@ -64,3 +64,28 @@ def test_solids(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
         out, err = capfd.readouterr()
         assert len(out.splitlines()) == 1
         assert not err
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("target", "said"),
+    [
+        ("a", "the name has no ending; the kind khv offers .csv"),
+        ("no/a.csv", "there is no folder"),
+        ("", "is empty"),
+    ],
+)
+def test_targets_that_are_no_files(
+    target: str,
+    said: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A name without an ending, in a folder that is not there, or none: said, and nothing is made."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["export", str(EXAMPLES / "cycloid.toml"), "--to", target]) == 2
+    assert said in capsys.readouterr().err
+    assert main(["run", str(EXAMPLES / "cycloid.toml"), "--ask", "ratio", "--out", ""]) == 2
+    assert "is empty; give a name" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())

@@ -16,6 +16,7 @@ import pytest
 from tests.drives.khv_cases import listed, without
 from trochoid.cli import main
 from trochoid.drives.casing_body import box_casing, elastic_shaken
+from trochoid.drives.casing_doubt import casing_warnings
 from trochoid.drives.khv.stages import Stages
 from trochoid.dynamics.structure import Structure
 from trochoid.dynamics.vibration import Vibration
@@ -92,6 +93,29 @@ def test_what_each_effect_contributes_is_said() -> None:
     data = made.outcome.dataset
     assert data is not None
     assert data["vibration_compared_1"].dims == ("frequency", "variant")
+
+
+@pytest.mark.property
+def test_errors_above_the_tolerance_are_warned_of() -> None:
+    """On a coarse mesh the natural frequencies are off by more than 3 %: said with the worst, and with the edge."""
+    [said] = [each for each in run().outcome.warnings if "accuracy.tolerance = 0.03" in each]
+    assert "a casing.mesh_edge below 40 mm" in said
+    levels = stages(run()).vibration
+    assert not casing_warnings(load(EXAMPLE, [*SMALL, "accuracy.tolerance=0.9"]), levels)
+
+
+@pytest.mark.property
+def test_one_mesh_tells_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where edges twice as long leave the mesh as it is, there is one level: no errors, and a warning."""
+    monkeypatch.setattr("trochoid.drives.casing_body.COARSER", 1.0)
+    made = Run(load(EXAMPLE, SMALL))
+    assert stages(made).casing.coarse is None
+    assert any("no coarser mesh" in each for each in made.outcome.warnings)
+    parts = made.vibration_velocity.parts
+    assert parts is not None
+    for group in parts.values():
+        assert not isinstance(group, Quantity)
+        assert all(isinstance(each, Quantity) and each.error is None for each in group.values())
 
 
 @pytest.mark.property

@@ -17,8 +17,9 @@ from trochoid.drives.planetary.bearings import local
 from trochoid.drives.planetary.design import design as planetary_design
 from trochoid.drives.precessional.bearings import Carried
 from trochoid.drives.precessional.stages import Stages as PrecessionalStages
+from trochoid.drives.precessional.tooth_loads import ToothLoads
 from trochoid.drives.precessional.yielding import depends_on_load, period
-from trochoid.drives.rolling import endured, faults, held, rolling
+from trochoid.drives.rolling import endured, faults, held, rolling, sized
 from trochoid.drives.rolling_answers import life_parts, stiffness_parts
 from trochoid.drives.rolling_seat import Seated, SeatLevels, seat_levels, seated
 from trochoid.drives.rv.supports import supports
@@ -30,6 +31,7 @@ from trochoid.fem.seat import plain_rollers, seat_compliance
 from trochoid.fem.seat_equilibrium import solve_seated
 from trochoid.kinematics.errors import Infeasible
 from trochoid.scene import load
+from trochoid.scene.drive_precessional import Support
 from trochoid.scene.materials import Material
 from trochoid.scene.rolling import RollingBearing, Seat
 
@@ -89,6 +91,26 @@ def test_misfits_are_named_with_what_would_fit() -> None:
     assert "element_length = 13 mm is more than width = 12 mm" in found[3]
 
 
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"kind": "deep_groove", "width": 0.1}, "the width of a bearing lies between 2.2 and 44 mm"),
+        ({"bore": 1, "outside": 1000}, "the outside of a bearing lies between 1.03 and 6 mm"),
+        (
+            {"kind": "needle", "bore": 200, "outside": 206.5, "width": 3},
+            "elements of 2.275 mm .* more than 200",
+        ),
+        ({"clearance": 1}, r"clearance = 1 mm with elements of 5.94 mm: .* need 0.594 mm at most"),
+        ({"kind": "deep_groove", "clearance": -0.7}, "so loose or so tight; need 0.66 mm at most"),
+    ],
+)
+def test_sizes_that_no_bearing_has(values: dict[str, Any], said: str) -> None:
+    """Outside of the proportions of ISO 15 nothing is assumed; play and press fit are a share of the elements."""
+    with pytest.raises(Infeasible, match=said):
+        rolling(table(**values))
+
+
 # --- stiffness under loads --------------------------------------------------------------------------------------------
 
 
@@ -113,6 +135,44 @@ def test_bearing_that_resists_nothing_is_refused_by_name() -> None:
     assert held("X", table("deep_groove", clearance=-0.005), np.zeros((1, 2))).radial > 0.0
     with pytest.raises(Infeasible, match=r"shaft bearing: .*cannot pass the load"):
         held("shaft bearing", table("tapered", axial_load=10), ROUND)
+
+
+@pytest.mark.property
+def test_load_that_no_bearing_carries_is_refused_by_name() -> None:
+    """Beyond 10 GPa a Hertz pressure means nothing; a ball off its groove is told in N and µm."""
+    with pytest.raises(Infeasible, match=r"^shaft: \d+ GPa on a raceway under .* axial one of 1e\+09 N"):
+        held("shaft", table("deep_groove", axial_load=1e9), ROUND)
+    tilting = np.array([[1426.6451791294848, 0.0, 0.0, 30.0, 0.0]])
+    said = r"^shaft: .*\(F_x, F_y, F_z\) = \(1427, 0, 426.6\) N .*a ball would leave .* \([-., \d]+\) µm and .* µrad"
+    with pytest.raises(Infeasible, match=said):
+        held("shaft", table("angular_contact", axial_load=426.6451791294848), tilting, upright=False)
+
+
+@pytest.mark.exact
+def test_given_force_leaves_the_moment() -> None:
+    """`radial_load` is the force's size alone, however small the force was, `moment_load` the moment's."""
+    loads = np.array([[0.0, -1e-3, 0.0, 3.0, 4.0]])
+    given = {"kind": "deep_groove", "bore": 30, "outside": 55, "width": 13, "spread": 30}
+    force = sized(Support(**given, radial_load=2000), loads)  # type: ignore[arg-type]
+    np.testing.assert_allclose(force, [[0.0, -2000.0, 0.0, 3.0, 4.0]], rtol=1e-15)
+    both = sized(Support(**given, radial_load=2000, moment_load=10), loads)  # type: ignore[arg-type]
+    np.testing.assert_allclose(both, [[0.0, -2000.0, 0.0, 6.0, 8.0]], rtol=1e-15)
+
+
+@pytest.mark.exact
+def test_teeth_load_the_bearings_in_the_frame_of_the_shaft() -> None:
+    """Statics, written anew there: with n = (0, s, c), M_B = (A − B) × R_A is what the shaft needs at B."""
+    s, c, arm, support = np.sin(0.1), np.cos(0.1), 0.06, 0.11
+    a = np.array([300.0, -700.0, 50.0])  # on the satellite, in the crank's frame, n = (s, 0, c)
+    moment = np.cross([arm * s, 0.0, arm * c - support], a)
+    teeth = ToothLoads(a[None], -0.5 * a[None], a[None], moment[None], moment[None, 2], moment)
+    none = np.zeros((1, 2))
+    found = Carried(none, none, none, none).beside(teeth)
+    turned = np.array([700.0, 300.0, 50.0])
+    np.testing.assert_allclose(found.a[0], turned[:2], rtol=1e-14)
+    np.testing.assert_allclose(found.b[0], -turned[:2], rtol=1e-14)
+    wanted = np.cross([0.0, arm * s, arm * c - support], turned)
+    np.testing.assert_allclose(found.b_moment[0], -wanted[:2], rtol=1e-13)
 
 
 @pytest.mark.property
@@ -223,6 +283,16 @@ def test_seat_scales_the_matrix_in_the_frame_of_the_load() -> None:
     said = stiffness_parts(found)["rigid_ring_over_flexible"]
     assert said.value == pytest.approx(100.0 * (1.0 / found.seat.along - 1.0))
     assert said.error is not None
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("force", [1e-6, 1.0, 2e3])
+def test_error_of_the_rigid_ring_reaches_to_zero(force: float) -> None:
+    """No housing stiffens a bearing: where the seat's law has less than the standard's, the error says as much."""
+    levels = levels_at(thickness=30, supports=0)
+    found = seated("X", levels, force)
+    assert found.too_stiff + found.too_stiff_error >= 0.0
+    assert found.laws < (0.01 if force > 1e3 else 0.15)
 
 
 # --- drives -----------------------------------------------------------------------------------------------------------
@@ -350,7 +420,12 @@ def test_precessional_seat_softens_and_is_said() -> None:
     """A thin housing at A: less stiffness there, nowhere else, and the answer names how much a rigid ring is wrong."""
     from trochoid.run import Run
 
-    plain = ["drive.bearing_a.straight_rollers=true", 'ask.quantities=["bearing_stiffness", "bearing_life"]']
+    effects = 'effects=[{type="bearing_compliance"}, {type="inertia"}]'
+    plain = [
+        effects,
+        "drive.bearing_a.straight_rollers=true",
+        'ask.quantities=["bearing_stiffness", "bearing_life"]',
+    ]
     seat = [*plain, "drive.bearing_a.seat={thickness=4}"]
     rigid, soft = (Run(load(EXAMPLES / "precessional.toml", extra)) for extra in (plain, seat))
     one, two = (dict[str, Any](run.bearing_stiffness.parts or {}) for run in (rigid, soft))

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from trochoid.fem.complementarity import Group, Problem, Solution, solve, tangent
+from trochoid.fem.rows import joined, taken
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
 
@@ -410,3 +411,31 @@ def test_flat_punch_has_the_pressure_of_a_rigid_one() -> None:
     pressure = solution.forces[0][0] * count / 2
     inner = np.abs(x) < 0.8
     assert pressure[inner] == pytest.approx(1 / (np.pi * np.sqrt(1 - x[inner] ** 2)), rel=3e-3)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("stuck", [0, 1])
+def test_position_that_does_not_settle_is_named_beside_one_that_does(
+    stuck: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where steps run out while another position has just settled, the one that has not is named, and it alone."""
+    from trochoid.fem import complementarity
+
+    hard, easy = _carried(1e6), _carried(1.0)
+    rows = [hard, easy] if stuck == 0 else [easy, hard]
+    both = joined([(np.array([i]), taken(one, None)) for i, one in enumerate(rows)])
+    steps = next(n for n in range(1, 60) if not _faults(both, n, monkeypatch).keys() & {1 - stuck})
+    found = _faults(both, steps, monkeypatch)
+    assert found.keys() == {stuck}
+    assert "a spring of 1.0e+06 N/m" in found[stuck]
+    with pytest.raises(NotConverged) as fault:
+        complementarity.solve_all(both)
+    assert fault.value.row == stuck
+
+
+def _faults(problem: Problem, steps: int, monkeypatch: pytest.MonkeyPatch) -> dict[int, str]:
+    """Return what is said of positions when that many proximal steps are all."""
+    from trochoid.fem import complementarity
+
+    monkeypatch.setattr(complementarity, "STEPS", steps)
+    return complementarity.attempt(problem, None).faults

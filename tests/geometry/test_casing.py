@@ -11,8 +11,10 @@ from tests.geometry.solid_cases import CASING
 from trochoid.fem.material import Material
 from trochoid.fem.solid import mass_properties, solid_body
 from trochoid.geometry.casing_box import BoxCasing, centers, inner_face, outer_face
+from trochoid.geometry.casing_limits import fail_if_edge_too_long
 from trochoid.geometry.casing_mesh import mesh_casing
-from trochoid.geometry.solid_places import middle
+from trochoid.geometry.casing_surface import points_off
+from trochoid.geometry.solid_places import middle, patch
 from trochoid.kinematics.errors import Infeasible, TrochoidError
 from trochoid.kinematics.types import Array
 
@@ -131,7 +133,7 @@ def test_the_same_measures_give_the_same_mesh() -> None:
         (replace(CASING, bores=(replace(BORE, boss=0.03),)), "0 < radius < boss"),
         (replace(CASING, bores=(replace(BORE, length=0.005),)), "at least 10 mm"),
         (replace(CASING, bores=(replace(BORE, length=0.25),)), "less than 190 mm"),
-        (replace(CASING, bores=(replace(BORE, x=0.1),)), "below 40 mm"),
+        (replace(CASING, bores=(replace(BORE, x=0.1),)), "x must be between -85 and 85 mm"),
         (
             replace(CASING, bores=(BORE, replace(BORE, name="b", x=0.05))),
             "bosses input and b overlap: 50 mm apart",
@@ -140,12 +142,58 @@ def test_the_same_measures_give_the_same_mesh() -> None:
         (replace(CASING, mounts=(replace(MOUNT, x=-0.3),)), "between -175 and 175 mm"),
         (replace(CASING, mounts=(replace(MOUNT, radius=0.0),)), "radius above 0"),
         (replace(CASING, mounts=(MOUNT, replace(MOUNT, name="m"))), "foot 1 and m overlap"),
+        (replace(CASING, wall=1e-5), "wall of 0.01 mm is too thin .* give 1.5 mm or more"),
+        (
+            replace(CASING, bores=(replace(BORE, boss=1.001 * BORE.radius),)),
+            "too thin round a bore of 40 mm; give 40.8",
+        ),
+        (
+            replace(CASING, bores=(replace(BORE, boss=0.5),)),
+            "at y = 0 mm, meets a wall; there its radius must be below 110 mm",
+        ),
+        (
+            replace(CASING, bores=(replace(BORE, radius=0.4, boss=0.5),)),
+            "meets a wall; between these walls its radius must be below 112.5 mm anywhere",
+        ),
+        (
+            replace(CASING, mounts=(replace(MOUNT, radius=0.5),)),
+            "the plate has room for a radius below 190 mm",
+        ),
     ],
 )
 def test_measures_that_cannot_be(casing: BoxCasing, said: str) -> None:
     """Refused before gmsh, with the limit."""
     with pytest.raises(Infeasible, match=said):
         mesh_casing(casing)
+
+
+@pytest.mark.exact
+def test_edges_longer_than_walls_and_box_are_refused() -> None:
+    """8 walls, or a third of the shortest side, whichever is less."""
+    fail_if_edge_too_long(CASING, 0.066)
+    with pytest.raises(
+        Infeasible, match=r"third of the shortest side of the box; give mesh_edge = 66\.66 mm or less"
+    ):
+        fail_if_edge_too_long(CASING, 1.0)
+    with pytest.raises(Infeasible, match="longer than 8 walls; give mesh_edge = 16 mm or less"):
+        fail_if_edge_too_long(replace(CASING, wall=0.002), 0.02)
+
+
+@pytest.mark.independent
+def test_distance_to_the_surface_is_that_to_a_mesh() -> None:
+    """A point that no mesh would take is refused before there is one; what is on a mesh is not."""
+    mesh = mesh_casing(CASING, 0.05)
+    nodes = mesh.points[np.unique(mesh.facets)[::80]].tolist()
+    assert not points_off(CASING, {str(i): (x, y, z) for i, (x, y, z) in enumerate(nodes)})
+    drawn = np.random.default_rng(3).uniform(-0.18, 0.18, (60, 3)).tolist()
+    points = {f"p{i}p": (x, y, z) for i, (x, y, z) in enumerate(drawn)}
+    said = points_off(CASING, points)
+    taken = [name for name in points if not any(f" {name} " in each for each in said)]
+    assert 5 < len(taken) < 55
+    for name in taken:
+        patch(mesh, points[name])
+    [one] = points_off(CASING, {"p": (0.0, 0.0, -0.1)})
+    assert "the point p at 0, 0, -100 mm is 40 mm off the body" in one
 
 
 @pytest.mark.exact

@@ -10,13 +10,14 @@ from hypothesis import strategies as st
 from tests.geometry.gear_cases import MODULE, external, pointed, ring
 from trochoid.geometry.gear_curve import GearBoundary
 from trochoid.geometry.gear_outline import Blank, gear_growth, gear_outline
-from trochoid.geometry.gear_tooth import Tooth
+from trochoid.geometry.gear_tooth import Tooth, sharpest
 from trochoid.geometry.mesh import mesh_outline
 from trochoid.geometry.quality import quality
 from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.involute import Gear
 from trochoid.kinematics.involute_curve import GearCurve
 from trochoid.kinematics.rack import Rack, rack_cut
+from trochoid.kinematics.types import Array
 
 TEETH = [external(20, 0.5, 0.134), pointed(), ring()]
 BLANKS = [Blank(external(17), 8e-3), Blank(pointed(), 4e-3), Blank(ring(), 92e-3)]
@@ -117,3 +118,34 @@ def test_what_cannot_be_made_says_what_could() -> None:
         Blank(ring(), 80e-3)
     with pytest.raises(Infeasible, match="1 facets per flank"):
         gear_outline(Blank(tooth, 9e-3), 1)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("teeth", range(8, 18))
+@pytest.mark.parametrize("above", [0.0, 1e-9, 0.004], ids=["at", "just above", "above"])
+def test_gear_at_the_limit_of_undercut_has_no_corner_twice(teeth: int, above: float) -> None:
+    """Property: fillet and involute meet on the base circle, where the involute stands still; corners stay apart."""
+    gear = Gear(teeth, MODULE, shift=Gear(teeth, MODULE).least_shift + above)
+    cut = rack_cut(gear, Rack(MODULE))
+    tip = gear.pitch_radius + 0.9 * MODULE * (1.0 + float(gear.shift))
+    blank = Blank(Tooth(cut, tip, sharpest(gear)), 0.5 * cut.root_radius)
+    corners = _corners(blank)
+    apart = np.linalg.norm(np.diff(corners, axis=0, append=corners[:1]), axis=1)
+    assert apart.min() > 1e-6 * MODULE
+
+
+@pytest.mark.property
+def test_gear_at_the_limit_of_undercut_is_meshed() -> None:
+    """Property: a sun of twelve teeth with the least shift to 0.01, the sun of the RV starter."""
+    gear = Gear(12, MODULE, shift=0.3)
+    cut = rack_cut(gear, Rack(MODULE))
+    blank = Blank(Tooth(cut, gear.pitch_radius + 1.3 * MODULE, sharpest(gear)), 0.5 * gear.pitch_radius)
+    mesh = mesh_outline(gear_outline(blank, 4), growth=gear_growth(blank))
+    assert quality(mesh).min_scaled_jacobian > 0.1
+
+
+def _corners(blank: Blank) -> Array:
+    """Return the points at which facets of the teeth meet."""
+    (teeth,) = (loop for loop in (gear_outline(blank).outer,) if loop.name == "teeth")
+    assert teeth.breaks is not None
+    return np.asarray(teeth.curve.point(teeth.breaks[:-1]))

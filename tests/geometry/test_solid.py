@@ -109,8 +109,18 @@ def test_places_are_found_by_shape() -> None:
 def test_a_place_that_is_not_there_says_how_far() -> None:
     """A bore of 210 mm in one of 200 mm: named, with what is missing."""
     mesh = bricks((1, 4, 2), _tube)
-    with pytest.raises(TrochoidError, match=r"bearing: no facet .* 0\.01 m off; check"):
+    with pytest.raises(TrochoidError, match=r"bearing: no whole facet .* 10 mm off; check"):
         place_nodes(mesh, Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.21), "bearing")
+    with pytest.raises(TrochoidError, match=r"single nodes do, .* the place ends within the facets"):
+        place_nodes(mesh, Disc((0.2, 0.0, 0.0), (0.0, 0.0, 1.0), 0.01), "foot")
+    with pytest.raises(TrochoidError, match=r"(?s)radius 210 mm .*low: no whole .* the body is between"):
+        find(
+            mesh,
+            {
+                "bearing": Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.21),
+                "low": Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.2, (5.0, 6.0)),
+            },
+        )
     with pytest.raises(TrochoidError, match="must have a length"):
         place_nodes(mesh, Disc((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
 
@@ -125,7 +135,7 @@ def test_patch() -> None:
     facet = mesh.points[patch(mesh, (1.0, 0.9, 0.9))]
     assert facet.min(axis=0) == pytest.approx([1.0, 2.0 / 3.0, 2.0 / 3.0])
     assert len(facet) == 8
-    with pytest.raises(TrochoidError, match=r"0\.527 m from the body"):
+    with pytest.raises(TrochoidError, match=r"527 mm from the body"):
         patch(mesh, (0.5, 0.5, 1.5))
     with pytest.raises(TrochoidError, match="only 1 node"):
         patch(mesh, (0.0, 0.0, 0.0), 0.01)
@@ -201,8 +211,20 @@ def test_files_that_do_not_serve_are_refused(tmp_path: Path, capsys: pytest.Capt
     for name, said in (("surface", "no solid elements"), ("wedge", "one kind"), ("mixed", "one kind")):
         with pytest.raises(TrochoidError, match=said):
             read_solid(tmp_path / f"{name}.vtu")
-    with pytest.raises(TrochoidError, match="cannot be read"):
+    with pytest.raises(TrochoidError, match="no such file"):
         read_solid(tmp_path / "none.vtu")
+    (tmp_path / "empty.msh").write_text("")
+    with pytest.raises(TrochoidError, match="holds no volume elements"):
+        read_solid(tmp_path / "empty.msh")
+    meshio.write(tmp_path / "cells.vtk", meshio.Mesh(points, []))
+    with pytest.raises(TrochoidError, match="it holds no elements, is damaged"):
+        read_solid(tmp_path / "cells.vtk")
+    with pytest.raises(TrochoidError, match="is a folder"):
+        read_solid(tmp_path)
+    lost = np.where(np.arange(len(points))[:, None] == 1, np.nan, points)
+    meshio.write(tmp_path / "lost.vtu", meshio.Mesh(lost, [("tetra", [[0, 1, 2, 3]])]))
+    with pytest.raises(TrochoidError, match=r"1 of .* nodes have coordinates that are no numbers"):
+        read_solid(tmp_path / "lost.vtu")
     (tmp_path / "body.xyz1").write_text("no mesh")
     with pytest.raises(TrochoidError, match=r"format|cannot be read"):
         read_solid(tmp_path / "body.xyz1")

@@ -7,7 +7,7 @@ import pytest
 
 from tests.kinematics.sphere_cases import EXAMPLES
 from trochoid.kinematics.sphere_tooth import SphereTooth
-from trochoid.kinematics.sphere_tooth_gap import opened, path_step
+from trochoid.kinematics.sphere_tooth_gap import gap_of, opened, path_step
 from trochoid.kinematics.spherical import unit
 from trochoid.kinematics.spherical_curve import foot_point
 from trochoid.kinematics.types import Array
@@ -57,3 +57,16 @@ def test_steps_along_the_path(tooth: SphereTooth) -> None:
     assert path_step(tooth, START, step) == pytest.approx(whole, abs=1e-14)
     slope = path_step(tooth, START, 1e-12 * step) / (1e-12 * step)[:, None]
     assert slope == pytest.approx(tooth.path_speed(START)[:, None] * tooth.tangent(START), abs=1e-10)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("tooth", EXAMPLES[:4])
+@pytest.mark.parametrize("size", [0.0, 1e-12, 1e-6, 1e-3, 5e-3])
+def test_gap_without_a_foot_point_to_begin_with(tooth: SphereTooth, size: float) -> None:
+    """From where the axes were, the same parameters and angles as from the nearest points of the flank."""
+    moved = displaced(tooth, size) if size else np.zeros((4, 3))
+    foot, _ = foot_point(tooth, tooth.center_path(START) + moved, START)
+    parameter, angle = opened(tooth, START, moved, foot)
+    found, gap = gap_of(tooth, START, moved)
+    assert found == pytest.approx(parameter, abs=1e-12)
+    assert gap == pytest.approx(angle, rel=1e-9, abs=1e-15 * size + 1e-50)

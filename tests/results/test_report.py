@@ -17,6 +17,7 @@ from trochoid.kinematics.types import Array
 from trochoid.report import render
 from trochoid.report.drawing import drawing_spec
 from trochoid.report.figures import Figure, figures
+from trochoid.report.tables import tiles_of
 from trochoid.report.units import axis_unit, display_unit
 from trochoid.results import Arrow, Check, Drawing, DrawingFrame, Line, Outcome, Quantity
 
@@ -109,6 +110,27 @@ def test_numbers_alone_need_no_plotly() -> None:
     assert "plotly" not in page.replace("Plotly", "").lower() or "* plotly.js v" not in page
     assert len(page) < 50_000
     assert "−19" in page
+
+
+@pytest.mark.exact
+def test_the_worst_of_each_thing_has_a_tile_and_long_remarks_none() -> None:
+    """Numbers called "worst" stand at the head; a remark of many words stands below the tiles, once."""
+    worst = Quantity(1.5, "mm/s", 0.1, "elastic", note="not here")
+    point = {name: Quantity(1.0, "mm/s", note=f"remark on {name}") for name in "xyzabc"} | {"worst": worst}
+    reason = "no standard applies, " + "which is said in many words " * 6
+    asked = {
+        "velocity": Quantity(parts={"cover": point, "side": point}),
+        "zone": Quantity("none applies", note=reason),
+    }
+    velocity, zone = tiles_of(asked)
+    assert (velocity.name, [n.name for n in velocity.numbers]) == ("Velocity · worst", ["Cover", "Side"])
+    assert (zone.notes, zone.more) == ((), reason)
+    html = render(Outcome({}, asked))
+    assert html.count(reason.strip()) == 1
+    assert html.count("remark on a") == 1
+    crowd = {f"p{i}": {"worst": Quantity(float(i), "mm/s")} for i in range(6)}
+    [tile] = tiles_of({"velocity": Quantity(parts=crowd)})
+    assert [n.value for n in tile.numbers] == ["5"]
 
 
 @pytest.mark.exact

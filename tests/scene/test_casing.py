@@ -62,7 +62,7 @@ def test_box_and_file_are_read() -> None:
 @pytest.mark.parametrize(
     ("text", "override", "said"),
     [
-        (TEXT, "casing.mass=3", "casing.mass: an elastic casing has it from its body; take it away"),
+        (TEXT, "casing.mass=3", "casing.mass: an elastic casing has it from its body; take it away, or take elastic"),
         (TEXT, "casing.center=[0,0,1]", "casing.center: an elastic casing has it from its body"),
         (TEXT, 'casing.mesh_file="a.msh"', "casing.mesh_file: an elastic casing is a box or read from a file"),
         (TEXT, 'casing.mesh_unit="m"', "casing.mesh_unit: only a casing from a file has it"),
@@ -72,6 +72,7 @@ def test_box_and_file_are_read() -> None:
         (without("damping_ratio"), "", "casing.damping_ratio: missing; need the damping ratio of elastic modes"),
         (TEXT, "casing.damping_ratio=1", "casing.damping_ratio: given 1; need a number of 0 or more and less than 1"),
         (TEXT, 'casing.material="cast_irn"', 'casing.material: no material "cast_irn"; did you mean "cast_iron"?'),
+        (TEXT, "casing.material=foo", 'casing.material: no material "foo"; known: cast_iron, steel. Or add the table'),
         (without("elastic"), "", "casing.box: only an elastic casing has it: add elastic = true"),
         (without("elastic"), "", "casing.mounts.0.radius: only an elastic casing has it"),
         (without("elastic"), "", "casing.inertia: missing; need a list of 3, each a moment of inertia"),
@@ -131,6 +132,10 @@ def test_what_floats_needs_no_bore() -> None:
         ("casing.bores.1.boss=125", "the boss of ring and output, radius 125 mm at y = 0 mm, meets a wall"),
         ("casing.mounts.0.position=[-400,-130,0]", "foot 1, radius 12 mm, is not on the base plate"),
         ("casing.bores.0.length=5", "the seat of input cover is 5 mm long"),
+        ("casing.mounts.0.position=[-150,-100,-50]", "a box stands on its underside; give y = -130 mm"),
+        ("casing.points.0.position=[0,500,0]", "the point cover at 0, 500, 0 mm is 370 mm off the body"),
+        ("casing.mesh_edge=1000", "give mesh_edge = 46.66 mm or less"),
+        ("casing.mesh_edge=0.1", "need more than 64 GiB of memory; give mesh_edge = 1.8 mm or more"),
     ],
 )
 def test_a_box_that_cannot_be_is_refused_before_anything_is_meshed(override: str, said: str) -> None:

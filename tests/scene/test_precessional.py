@@ -233,7 +233,12 @@ def test_ratio_needs_no_teeth_that_can_be_made() -> None:
     assert run.member_speeds.parts is not None
 
 
-CLOSED = [name for name, needs in NEEDS["precessional"].items() if "elastic_contact" not in needs]
+OPEN = ("bearing_life",)  # takes the teeth's forces where they are known
+CLOSED = [
+    name
+    for name, needs in NEEDS["precessional"].items()
+    if "elastic_contact" not in needs and name not in OPEN
+]
 number = st.floats(-1e3, 1e3) | st.floats(0.0, 10.0)
 anything = (
     number | st.integers(-3, 40) | st.sampled_from(["ring", "5 mm", "2 kg", "x", True, None, [1.0, 2.0]])

@@ -58,6 +58,7 @@ def test_tables_in_si() -> None:
         (f"{BALL}, outer_groove=0.3", "outer_groove = 0.3 ball diameters"),
         (f"{PLAIN}, inner_groove=0.54", 'kind = "cylindrical" has no inner_groove; take it away'),
         (f"{PLAIN}, centrifugal=true", 'kind = "cylindrical" has no centrifugal'),
+        (f"{PLAIN}, axial_load=500", 'kind = "cylindrical" has no axial_load'),
         (f"{PLAIN}, contact_angle=15", 'kind = "cylindrical" has no contact_angle'),
         (f"{BALL}, element_length=5, straight_rollers=true", "has no element_length, straight_rollers"),
         (f'kind="tapered", {SIZES}', "carries nothing without an axial load; give axial_load above 0 N"),

@@ -11,19 +11,23 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from trochoid.drives.planning import MOST_MEMORY, least_edge
 from trochoid.dynamics.casing import Casing, Mount
 from trochoid.dynamics.vibration import Point
 from trochoid.kinematics.errors import Infeasible, TrochoidError
 from trochoid.scene import Casing as CasingTable
 from trochoid.scene import Scene
+from trochoid.scene.casing import Mount as MountTable
 
 if TYPE_CHECKING:
     from trochoid.dynamics.structure import Structure
     from trochoid.fem.solid import SolidBody
+    from trochoid.geometry.casing_box import BoxCasing
 
 Triple = tuple[float, float, float]
 
 RIGID_CASING, RIGID_MOUNTS, FREE = "rigid_casing", "rigid_mounts", "free_casing"
+AT = 1e-6  # of the box: how near a mount must be to its underside
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +35,8 @@ class Shaken:
     """A casing `body`, its `variants` by what they are without, and the points where it is read.
 
     Of an elastic one: middles of the `bores`, m, and which places of the drive each `holds`, its elastic natural
-    `frequencies` without mounts, Hz, and how far the reduction puts them off (`error`, None: not compared).
+    `frequencies` without mounts, Hz, and how far the reduction puts them off (`error`, None: not compared); `edge`: of
+    a box's mesh, m; `alone`: why there is no coarser one that would tell the error.
     """
 
     body: Casing | Structure
@@ -41,6 +46,13 @@ class Shaken:
     holds: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     frequencies: tuple[float, ...] = ()
     error: float | None = None
+    edge: float | None = None
+    alone: str = ""
+
+    @property
+    def compared(self) -> bool:
+        """Whether there is a coarser mesh of the casing, or none at all, as for a rigid one."""
+        return not self.elastic or (self.edge is not None and not self.alone)
 
     @property
     def elastic(self) -> bool:
@@ -101,16 +113,49 @@ def casing_table(scene: Scene[Any]) -> CasingTable:
 
 
 def casing_reasons(scene: Scene[Any]) -> list[str]:
-    """Return why the box of an elastic casing cannot be; nothing is meshed."""
-    if not (is_elastic(scene) and scene.has("casing_on_mounts")):
+    """Return why the box of an elastic casing cannot be, what stands off it, or needs too fine a mesh; none is made."""
+    if not (is_elastic(scene) and (scene.has("casing_on_mounts") or "mass" in scene.ask.quantities)):
         return []
-    from trochoid.drives.casing_body import box_casing
-    from trochoid.geometry.casing_limits import fail_if_impossible
+    from trochoid.drives.casing_body import box_casing, mesh_edge
+    from trochoid.geometry.casing_limits import fail_if_edge_too_long, fail_if_impossible
+    from trochoid.geometry.casing_surface import points_off
 
+    table = casing_table(scene)
     try:
-        box = box_casing(casing_table(scene))
-        if box is not None:
-            fail_if_impossible(box)
+        box = box_casing(table)
+        if box is None:
+            return []
+        fail_if_impossible(box)
     except Infeasible as fault:
         return [str(fault)]
-    return []
+    edge = mesh_edge(table, box)
+    found = [_off_the_underside(mount, box.low[1], max(box.size)) for mount in table.mounts]
+    found += [_said(lambda: fail_if_edge_too_long(box, edge)), _too_fine(box, edge)]
+    found += points_off(box, {point.name: point.position for point in table.points})
+    return [said for said in found if said]
+
+
+def _said(look: Callable[[], None]) -> str:
+    try:
+        look()
+    except Infeasible as fault:
+        return str(fault)
+    return ""
+
+
+def _off_the_underside(mount: MountTable, underside: float, side: float) -> str:
+    """Say that a mount is not where a box has its feet: springs would pull elsewhere than they hold."""
+    if abs(mount.position[1] - underside) <= AT * side:
+        return ""
+    return (
+        f"casing: {mount.name} is at y = {1e3 * mount.position[1]:g} mm, but a box stands on its underside; "
+        f"give y = {1e3 * underside:g} mm"
+    )
+
+
+def _too_fine(box: BoxCasing, edge: float) -> str:
+    least = least_edge(box.size)
+    if edge >= least:
+        return ""
+    given = f"edges of the mesh of {1e3 * edge:.3g} mm need more than {MOST_MEMORY / 1024.0:g} GiB of memory"
+    return f"casing: {given}; give mesh_edge = {1e3 * least:.2g} mm or more"

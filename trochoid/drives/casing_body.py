@@ -60,9 +60,12 @@ def casings(scene: Scene[Any], clock: Clock, body: Callable[[], SolidBody]) -> P
         if casing_table(scene).box is None:
             return Pair(elastic_shaken(scene, made, small), None)
         try:
-            coarse = elastic_shaken(scene, meshed(scene, coarser=True), True)
-        except TrochoidError:
-            return Pair(elastic_shaken(scene, made, small), None)
+            other = meshed(scene, coarser=True)
+            if other.mesh.points.shape == made.mesh.points.shape:
+                raise TrochoidError("edges twice as long leave it as it is")
+            coarse = elastic_shaken(scene, other, True)
+        except TrochoidError as fault:
+            return Pair(replace(elastic_shaken(scene, made, small), alone=str(fault)), None)
         return Pair(replace(elastic_shaken(scene, made, False), error=coarse.error), coarse)
 
 
@@ -107,10 +110,19 @@ def _mesh(table: CasingTable, coarser: bool) -> SolidMesh:
         from trochoid.scene.casing import METRES
 
         return read_solid(table.mesh_file or "", METRES[table.mesh_unit], _found_places(table))
-    from trochoid.geometry.casing_mesh import COARSE, mesh_casing
+    from trochoid.geometry.casing_mesh import mesh_casing
 
-    edge = COARSE * box.wall if table.mesh_edge is None else table.mesh_edge
+    edge = mesh_edge(table, box)
     return mesh_casing(box, COARSER * edge if coarser else edge)
+
+
+def mesh_edge(table: CasingTable, box: BoxCasing) -> float:
+    """Return the length of the edges of a box's mesh, m."""
+    from trochoid.geometry.casing_limits import EDGES
+    from trochoid.geometry.casing_mesh import COARSE
+
+    usual = min(COARSE * box.wall, min(box.size) / EDGES)
+    return usual if table.mesh_edge is None else table.mesh_edge
 
 
 def _found_places(table: CasingTable) -> dict[str, Place]:
@@ -140,8 +152,14 @@ def elastic_shaken(scene: Scene[Any], body: SolidBody, compare: bool) -> Shaken:
 
     table = casing_table(scene)
     middles, sets = _places(table, body.mesh)
+    off = []
     for point in table.points:
-        patch(body.mesh, point.position)  # raises at once for one that is off the body
+        try:
+            patch(body.mesh, point.position, name=point.name)
+        except TrochoidError as fault:
+            off.append(str(fault))
+    if off:
+        raise TrochoidError("\n".join(off))
     places = [Interface(name, middles[name], body.mesh.sets[sets[name]]) for name in middles]
     reduced = reduce(body, places, UPPER, least=LEAST)
     mounts = {m.name or "": Mount(m.position, m.stiffness, m.damping) for m in table.mounts}
@@ -153,6 +171,7 @@ def elastic_shaken(scene: Scene[Any], body: SolidBody, compare: bool) -> Shaken:
     if firm or any(any(mount.damping) for mount in mounts.values()):
         variants[FREE] = elastic_casing(reduced, {}, points, ratio)
     frequencies, error = _frequencies(reduced, compare)
+    box = box_casing(table)
     return Shaken(
         elastic_casing(reduced, mounts, points, ratio),
         variants,
@@ -161,6 +180,7 @@ def elastic_shaken(scene: Scene[Any], body: SolidBody, compare: bool) -> Shaken:
         {bore.name: bore.seats for bore in table.bores},
         frequencies,
         error,
+        None if box is None else mesh_edge(table, box),
     )
 
 

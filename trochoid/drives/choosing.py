@@ -7,6 +7,7 @@ level tell, where strips are affordable. The mesh follows from the error that tw
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -70,9 +71,15 @@ def choose(
         coarse = fine
     raise TooCoarse(
         f"the error of {name} is estimated at {error:.1e} with {levels[-1]} {unit}, more than "
-        f"accuracy.tolerance = {tolerance:g}; raise the tolerance to {error:.1e}, or name accuracy.facets_per_lobe "
-        "and accept the error"
+        f"accuracy.tolerance = {tolerance:g}; raise the tolerance to {rounded_up(error):.1e}, or name "
+        "accuracy.facets_per_lobe and accept the error"
     )
+
+
+def rounded_up(value: float) -> float:
+    """Return a number above 0 rounded up to two digits: a tolerance so large is met."""
+    digit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return math.ceil(value / digit) * digit
 
 
 def or_level0(best: Callable[[str | None], Chosen], named: str | None) -> tuple[Chosen, str]:

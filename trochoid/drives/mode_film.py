@@ -23,8 +23,8 @@ UPWARDS = np.array([0.0, 0.0, 1.0])
 FRAMES, MOST = 12, 6  # phases of a film, and modes that are shown
 GLASS = 0.3  # opacity of what rests, or hides others
 SHARE = 0.08  # of the drive's half size: the largest displacement
-SIDES, AROUND, POINTS = 16, 24, 160  # of a cylinder, of a ring, of an outline with lobes or teeth
-BYTES = 5e6  # of all films; fewer modes are shown where their files were larger
+SIDES, AROUND, POINTS = 20, 36, 160  # of a cylinder, of a ring, of an outline with lobes or teeth
+BYTES = 7.5e6  # of all films; fewer modes are shown where their files were larger
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -55,14 +55,18 @@ class Swing:
 
 
 def mode_films(parts: Sequence[Part], swings: Sequence[Swing], seen: str = "") -> tuple[Film, ...]:
-    """Return a film `mode_1`, … of each of the first modes, at most MOST; `seen` as in "seen from the eccentric"."""
+    """Return a film `mode_1`, … of each of the first of these modes; `seen` as in "seen from the eccentric".
+
+    They are MOST, or fewer with files that were larger than BYTES, and then the titles say so.
+    """
     reach = 0.5 * max(float(np.ptp(np.concatenate([p.points[:, axis] for p in parts]))) for axis in range(3))
     each = FRAMES * sum(1200 + 24 * len(part.points) + 17 * part.cells.shape[1] for part in parts)
     shown = min(MOST, max(1, int(BYTES // each)))
-    return tuple(_film(parts, swing, SHARE * reach, seen) for swing in swings[:shown])
+    fewer = f"{shown} films, more were too large" if shown < min(MOST, len(swings)) else ""
+    return tuple(_film(parts, swing, SHARE * reach, (seen, fewer)) for swing in swings[:shown])
 
 
-def _film(parts: Sequence[Part], swing: Swing, largest: float, seen: str) -> Film:
+def _film(parts: Sequence[Part], swing: Swing, largest: float, notes: tuple[str, ...]) -> Film:
     moved = [part.moved(motion) for part, motion in zip(parts, swing.motion, strict=True)]
     whole = np.concatenate(moved)
     turn = np.exp(-0.5j * np.angle((whole**2).sum()))  # the phase at which most is displaced comes first
@@ -77,7 +81,7 @@ def _film(parts: Sequence[Part], swing: Swing, largest: float, seen: str) -> Fil
             made.append((float(phase), tuple(bodies)))
         return made
 
-    said = (f"Mode {swing.number}: {swing.words}", seen, "of arbitrary size")
+    said = (f"Mode {swing.number}: {swing.words}", *notes, "of arbitrary size")
     return Film(
         f"mode_{swing.number}",
         "; ".join(each for each in said if each),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -13,7 +14,9 @@ CASING = {
     "casing": "reduced to its bores, feet and modes, on two mesh levels for the error",
 }
 SUPPORTS = "rolling bearings of the members and what they carry, in turn; their flexible seats"
+REDUCING = 150.0, 14e-3  # MiB of a reduction, and of each of its degrees of freedom
 PER_PATCH = 50.0  # degrees of freedom for each square of the box's surface with an edge's length as its side
+MOST_MEMORY = 64.0 * 1024.0  # MiB: more than a workstation has
 USUAL = 54_000.0  # degrees of freedom of a mesh from a file, which is not read here
 
 
@@ -62,11 +65,20 @@ def casing_cost(scene: Scene[Any]) -> tuple[dict[str, float], dict[str, float]]:
         return {}, {}
     size, box = USUAL, scene.casing.box
     if box is not None:
-        x, y, z = box.size
         edge = scene.casing.mesh_edge or 1.5 * box.wall
-        size = PER_PATCH * 2.0 * (x * y + y * z + z * x) / edge**2
+        size = PER_PATCH * _area(box.size) / edge**2
     seconds = {"casing mesh": 0.5 + 2.5e-5 * size, "casing": 6.0 * (size / 38e3) ** 1.75}
-    return seconds, {"casing mesh": 200.0 + 2e-3 * size, "casing": 150.0 + 14e-3 * size}
+    return seconds, {"casing mesh": 200.0 + 2e-3 * size, "casing": REDUCING[0] + REDUCING[1] * size}
+
+
+def least_edge(size: tuple[float, float, float]) -> float:
+    """Return the shortest edges of a box's mesh that fit into MOST_MEMORY, m; `size` of the box."""
+    return math.sqrt(PER_PATCH * _area(size) * REDUCING[1] / (MOST_MEMORY - REDUCING[0]))
+
+
+def _area(size: tuple[float, float, float]) -> float:
+    x, y, z = size
+    return 2.0 * (x * y + y * z + z * x)
 
 
 def planned(

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 ANGULAR, TAPERED = float(np.radians(25.0)), float(np.radians(14.0))  # contact angles where none is given
 SETTLED = 1e-6  # relative change of the stiffness when loads and stiffness agree
 STEPS = 20
+MOST_PLAY = 0.1  # of the element's diameter: more is no clearance or press fit of a bearing
+MOST_PRESSURE = 10e9  # Pa: raceways sink in from 4 GPa on
 UPRIGHT = {"tilt_x": 0.0, "tilt_y": 0.0}
 
 
@@ -60,6 +62,17 @@ def rolling(table: RollingTable) -> Row:
 
     Raises Infeasible for elements that overlap and for sizes that no bearing has.
     """
+    made = _row(table)
+    size = getattr(made, "ball_diameter", None) or made.roller_diameter  # type: ignore[union-attr]
+    if abs(table.clearance) > MOST_PLAY * size:
+        raise Infeasible(
+            f"clearance = {1e3 * table.clearance:g} mm with elements of {1e3 * size:.4g} mm: no bearing is so loose or "
+            f"so tight; need {1e3 * MOST_PLAY * size:.3g} mm at most, of either sign"
+        )
+    return made
+
+
+def _row(table: RollingTable) -> Row:
     from trochoid.fem.rolling_assumed import (
         assumed_ball_bearing,
         assumed_needle_bearing,
@@ -177,6 +190,13 @@ def held(
         raise Infeasible(f"{name}: {error}") from error
     except NotConverged as error:
         raise NotConverged(f"{name}: {error}") from error
+    if found.pressure > MOST_PRESSURE:
+        sizes = [float(np.linalg.norm(whole[:, :2], axis=1).max()), float(np.abs(whole[:, 2]).max())]
+        raise Infeasible(
+            f"{name}: {1e-9 * found.pressure:.3g} GPa on a raceway under a radial load of {sizes[0]:.4g} N and an "
+            f"axial one of {sizes[1]:.4g} N at clearance = {1e3 * table.clearance:g} mm: no bearing carries that "
+            f"(raceways sink in from 4 GPa on); give a smaller load, less press fit or a larger bearing"
+        )
     mean = found.mean
     fail_if_loose(
         name,
@@ -193,18 +213,23 @@ def held(
 
 
 def sized(table: RollingTable, loads: Array) -> Array:
-    """Return loads (m, 5) with the sizes that the table gives; moments grow with the radial force."""
+    """Return loads (m, 5) with the sizes that the table gives; the force's leaves the moment as it is."""
     loads = np.atleast_2d(np.asarray(loads, dtype=np.float64))
     whole = np.zeros((len(loads), 5))
     whole[:, : loads.shape[1]] = loads
     if table.radial_load is not None:
-        size = np.hypot(whole[:, 0], whole[:, 1])[:, None]
-        ways = np.where(size > 0.0, whole[:, :2] / np.where(size > 0.0, size, 1.0), [0.0, 1.0])
-        share = np.where(size > 0.0, table.radial_load / np.where(size > 0.0, size, 1.0), 0.0)
-        whole[:, 3:] *= share
-        whole[:, :2] = table.radial_load * ways
+        whole[:, :2] = table.radial_load * _ways(whole[:, :2], (0.0, 1.0))
+    moment = getattr(table, "moment_load", None)
+    if moment is not None:
+        whole[:, 3:] = moment * _ways(whole[:, 3:], (1.0, 0.0))
     whole[:, 2] = table.axial_load
     return frozen(whole)
+
+
+def _ways(vectors: Array, otherwise: tuple[float, float]) -> Array:
+    """Return unit vectors (m, 2) along vectors, where these are none the other one."""
+    size = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.asarray(np.where(size > 0.0, vectors / np.where(size > 0.0, size, 1.0), otherwise))
 
 
 def rollers_under(row: RollerRow, forces: Array, resultant: Array) -> Duty:

@@ -30,6 +30,7 @@ ENTRIES = (  # of a stiffness (5, 5) on x, y, z and both tilts
 )
 ROUNDING = 1e-9  # of the largest stiffness of the bearing
 ASSUMED = "inner geometry assumed from the boundary dimensions: stiffness to perhaps 20 %"
+STIFFER = "; below 0: the thick seat that ISO/TS 16281 contains is softer than this, and both laws differ by as much"
 SINKS = "below 1: the raceways sink in under the largest load"
 NONE = "no rolling bearing: give the drive one by its kind and sizes"
 
@@ -70,7 +71,8 @@ def seat_parts(found: Held) -> dict[str, Quantity]:
             "%",
             seat.too_stiff_error,
             "finite elements",
-            note="how much more the radial stiffness on rigid rings is, along the load, mean over its directions",
+            note="how much more the radial stiffness on rigid rings is, along the load, mean over its directions"
+            + (STIFFER if seat.too_stiff < 0.0 else ""),
         ),
         "most_loaded_element_over_rigid_ring": Quantity(
             100.0 * (seat.largest - 1.0), "%", None, "finite elements"

@@ -19,6 +19,7 @@ from trochoid.dynamics.zones import Machine, Zone, zone
 from trochoid.scene import Scene
 
 RIGID, SLOW, PRINTED, UNBALANCED = "rigid", "without_inertia", "printed", "without_counterweight"
+GENEVA = "geneva_wheel"  # another mechanism in the same place
 T = TypeVar("T")
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from trochoid.drives.casing import FREE, RIGID_CASING, RIGID_MOUNTS
 from trochoid.drives.casing_body import COMPARED, REDUCED
 from trochoid.drives.entries import Entries, entry, named
-from trochoid.drives.vibration import PRINTED, RIGID, SLOW, UNBALANCED, CasingVibration
+from trochoid.drives.vibration import GENEVA, PRINTED, RIGID, SLOW, UNBALANCED, CasingVibration
 from trochoid.dynamics.vibration import Vibration
 from trochoid.dynamics.zones import Zone
 from trochoid.kinematics.types import IntArray
@@ -22,6 +22,7 @@ WORDS = {
     SLOW: "reactions without inertia",
     PRINTED: "printed reactions",
     UNBALANCED: "without counterweight",
+    GENEVA: "Geneva wheel in its place, at the same speed of the arm",
     RIGID_CASING: "rigid casing",
     RIGID_MOUNTS: "on rigid mounts",
     FREE: "free casing, without mounts",
@@ -30,6 +31,11 @@ COMPARISON = (
     "Length of the velocity's amplitudes along x, y and z: with all effects of the scene, and with one of them "
     "changed."
 )
+EXPLAINED = WORDS | {
+    RIGID_CASING: "the casing taken as rigid, with the same mass, on the same mounts",
+    RIGID_MOUNTS: "the elastic casing with its sprung feet held still",
+    FREE: "the casing without its mounts",
+}
 BALANCE = 1e-9
 MOST = 20  # natural frequencies that are told
 Number = Callable[[Callable[[CasingVibration], float], str, str], Quantity]
@@ -46,6 +52,8 @@ def velocity_parts(found: CasingVibration, number: Number, model: str) -> Parts:
 
     `number(get, unit, model)` makes the answer of a number that `get` reads from a vibration.
     """
+    if found.casing.alone:
+        number = _without_error(number)
     parts: dict[str, Quantity | Parts] = {}
     for i, point in enumerate(found.elastic.points):
         entries = {axis: number(_read(i, j), "mm/s", model) for j, axis in enumerate("xyz")}
@@ -53,13 +61,23 @@ def velocity_parts(found: CasingVibration, number: Number, model: str) -> Parts:
         for name in found.others:
             said = name if name in (RIGID, PRINTED) else model
             value = number(_read(i, None, name), "mm/s", said)
-            entries[f"worst_{name}"] = replace(value, note=WORDS[name])
+            entries[f"worst_{name}"] = replace(value, note=EXPLAINED[name])
         parts[point.name] = entries
     if found.casing.elastic:
         low = [hertz for hertz in found.elastic.natural_frequencies if hertz <= COMPARED]
         count = min(len(low), MOST)
+        number = number if found.casing.compared else _without_error(number)
         parts[FREQUENCIES] = {f"mode_{i + 1}": number(_mode(i), "Hz", "elastic") for i in range(count)}
     return parts
+
+
+def _without_error(number: Number) -> Number:
+    """Return the same maker of answers, that knows no error: one mesh tells none."""
+
+    def made(get: Callable[[CasingVibration], float], unit: str, model: str) -> Quantity:
+        return replace(number(get, unit, model), error=None)
+
+    return made
 
 
 def _read(point: int, axis: int | None, other: str = "") -> Callable[[CasingVibration], float]:
@@ -117,7 +135,7 @@ def comparison(found: CasingVibration, lines: IntArray | slice = slice(None)) ->
             size,
             "m/s",
             f"velocity, {point.name}",
-            f"Vibration velocity with and without each effect: {point.name}",
+            f"{point.name[:1].upper()}{point.name[1:]}: velocity by effect",
             scale="log",
             caption=COMPARISON,
         )

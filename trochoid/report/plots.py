@@ -13,6 +13,7 @@ from trochoid.results.plot import Axis, Plot, PlotCurve, PlotSurface
 
 _PLANE, _SPACE = 620, 760  # px
 _NAMES = ("x", "y", "z")
+EYE = 1.5  # of the size of what is drawn in space: from nearer by, axes and their titles are cut
 
 
 def plot_spec(plot: Plot) -> dict[str, Any]:
@@ -82,6 +83,7 @@ def _space(plot: Plot) -> dict[str, Any]:
         for name, axis in zip(_NAMES, plot.axes, strict=True)
     }
     scene = {**axes, "aspectmode": "data" if plot.equal else "cube", "dragmode": "orbit"}
+    scene["camera"] = {"eye": {"x": EYE, "y": EYE, "z": EYE}}
     return style.layout(_SPACE, scene=scene, margin={"l": 0, "r": 0, "t": 36, "b": 0})
 
 

@@ -12,6 +12,8 @@ from trochoid.results.outcome import Parts, Quantity
 _TILE = 4  # parts that still fit into a tile
 _WIDE = 6  # columns that still fit beside each other
 _HALF = 42  # characters that fit side by side into half of the page
+_LONG = 140  # characters of a remark that is too long for a tile
+_WORST = "worst"  # the number of each thing that is its headline
 _ALONE = 3  # parts with which a thing by itself has a table of its own
 Leaf = tuple[str, Quantity]
 Group = tuple[str, Mapping[str, Quantity]]
@@ -29,12 +31,13 @@ class Number:
 
 @dataclass(frozen=True, slots=True)
 class Tile:
-    """A headline: one large number, or a few."""
+    """A headline: one large number, or a few; `more` is a remark too long to stand in it."""
 
     name: str
     numbers: tuple[Number, ...]
     model: str
     notes: tuple[str, ...]
+    more: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +70,14 @@ class Table:
 
 
 def tiles_of(quantities: Mapping[str, Quantity]) -> list[Tile]:
-    """Return the quantities that are one value or a few."""
-    return [_tile(name, quantity) for name, quantity in quantities.items() if _fits(quantity)]
+    """Return the quantities that are one value or a few, and the worst of each thing of others."""
+    made = []
+    for name, quantity in quantities.items():
+        if _fits(quantity):
+            made.append(_tile(name, quantity))
+        elif (worst := _worst(quantity)) is not None:
+            made.append(_tile(f"{name} · {_WORST}", worst))
+    return made
 
 
 def tables_of(quantities: Mapping[str, Quantity]) -> list[Table]:
@@ -99,16 +108,30 @@ def _fits(quantity: Quantity) -> bool:
     return parts is None or (len(parts) <= _TILE and all(_is_leaf(part) for part in parts.values()))
 
 
+def _worst(quantity: Quantity) -> Quantity | None:
+    """Return the worst of each thing, of many things the largest alone; None where nothing is called so."""
+    things = {name: _inner(part) for name, part in (quantity.parts or {}).items() if not _is_leaf(part)}
+    found = {name: part[_WORST] for name, part in things.items() if _WORST in part}
+    leaves = {name: leaf for name, leaf in found.items() if isinstance(leaf, Quantity) and leaf.parts is None}
+    if not leaves or len(leaves) < len(found):
+        return None
+    if len(leaves) > _TILE:
+        sizes = {name: leaf.value for name, leaf in leaves.items() if isinstance(leaf.value, float)}
+        most = max(sizes, key=lambda name: sizes[name], default=next(iter(leaves)))
+        leaves = {most: leaves[most]}
+    return Quantity(
+        parts={name: replace(leaf, note=None) for name, leaf in leaves.items()}, model=quantity.model
+    )
+
+
 def _tile(name: str, quantity: Quantity) -> Tile:
     leaves = list(_leaves(quantity.parts)) if quantity.parts is not None else [("", quantity)]
     notes = [f"{text.label(part)}: {leaf.note}" for part, leaf in leaves if part and leaf.note]
     model = quantity.model or _shared_model(leaves)
-    return Tile(
-        text.label(name),
-        tuple(_number(part, leaf) for part, leaf in leaves),
-        model,
-        (*([quantity.note] if quantity.note else []), *notes),
-    )
+    said = (*([quantity.note] if quantity.note else []), *notes)
+    long = len("; ".join(said)) > _LONG
+    numbers = tuple(_number(part, leaf) for part, leaf in leaves)
+    return Tile(text.label(name), numbers, model, () if long else said, "; ".join(said) if long else "")
 
 
 def _number(name: str, quantity: Quantity) -> Number:
@@ -139,7 +162,10 @@ def _tables(name: str, quantity: Quantity) -> list[Table]:
             made[-1] = replace(made[-1], rows=made[-1].rows + rows)
         else:
             made.append(Table(title, rows, (), model))
-    return [*made[:-1], replace(made[-1], note=quantity.note or "")] if made else []
+    if not made:
+        return []
+    note = "; ".join(filter(None, (made[-1].note, quantity.note)))
+    return [*made[:-1], replace(made[-1], note=note)]
 
 
 def _grid(name: str, run: Sequence[Group], model: str) -> Table:
@@ -147,7 +173,10 @@ def _grid(name: str, run: Sequence[Group], model: str) -> Table:
     keys = list(run[0][1])
     names = [text.label(path) for path, _ in run]
     if len(keys) > _WIDE:
-        rows = [Row(text.label(key), tuple(_cell(group[key], "") for _, group in run)) for key in keys]
+        rows = [
+            Row(text.label(key), tuple(_cell(group[key], "") for _, group in run), _shared_note(run, key))
+            for key in keys
+        ]
         return Table(text.label(name), tuple(rows), tuple(names), model)
     units = {key: _shared_unit([group[key] for _, group in run]) for key in keys}
     head = tuple(f"{text.label(key)} ({units[key]})" if units[key] else text.label(key) for key in keys)
@@ -155,7 +184,14 @@ def _grid(name: str, run: Sequence[Group], model: str) -> Table:
         Row(label, tuple(_cell(group[key], units[key]) for key in keys))
         for label, (_, group) in zip(names, run, strict=True)
     ]
-    return Table(text.label(name), tuple(rows), head, model)
+    said = [f"{text.label(key)}: {note}" for key in keys if (note := _shared_note(run, key))]
+    return Table(text.label(name), tuple(rows), head, model, "; ".join(said))
+
+
+def _shared_note(run: Sequence[Group], key: str) -> str:
+    """Return the remark on a number that all things have."""
+    notes = {group[key].note or "" for _, group in run}
+    return notes.pop() if len(notes) == 1 else ""
 
 
 def _groups(parts: Parts, path: str = "") -> Iterator[Group]:

@@ -14,6 +14,7 @@ from trochoid.report.panels import Panel
 _MANY = 10  # curves beyond which lines are thin
 _SYMBOLS = ("circle", "circle-open", "diamond", "diamond-open")
 _NOISE = 1e-12  # of the largest value is shown as zero
+_STEMS = 300  # lines of a spectrum up to which each is a stem; more are drawn as the line over their tops
 _DECADES = 5  # of a logarithmic axis below its largest value; under that is rounding
 
 
@@ -34,7 +35,7 @@ def lines(panel: Panel, named: set[str], legend: str) -> list[dict[str, Any]]:
         dash = style.DASHES[variant % len(style.DASHES)]
         line = {"color": color, "width": 1.1 if len(panel.curves) > _MANY else 1.8, "dash": dash}
         shown = {"name": name, "legendgroup": name, "showlegend": name not in named, "legend": legend}
-        look = _stems(curve, panel, color, variant) if curve.spectrum else {"line": line}
+        look = _stems(curve, panel, color, variant) if _apart(curve) else {"line": line}
         traces.append(_line(curve, panel) | shown | look)
         named.add(name)
     return traces
@@ -63,11 +64,15 @@ def heat_map(panel: Panel, domain: tuple[float, float], limits: tuple[float, flo
 def _line(curve: Curve, panel: Panel) -> dict[str, Any]:
     return {
         "type": "scatter",
-        "mode": "markers" if curve.spectrum else "lines",
+        "mode": "markers" if _apart(curve) else "lines",
         "x": style.packed(curve.x * panel.x_unit.factor),
         "y": style.packed(_cleaned(curve, panel.largest) * panel.unit.factor),
         "hovertemplate": f"%{{y:.5~g}} {panel.unit.symbol}<extra>{panel.name(curve)}</extra>",
     }
+
+
+def _apart(curve: Curve) -> bool:
+    return curve.spectrum and curve.y.size <= _STEMS
 
 
 def _stems(curve: Curve, panel: Panel, color: str, variant: int) -> dict[str, Any]:

@@ -23,6 +23,7 @@ _PLAIN = {
     "\u202f": "",
 }
 _MINUS = "−"
+_MOST_DECIMALS = 9  # of a value and its error without a power of ten
 _NO_SYMBOL = r"(?<!^[A-Z])_|_(?![A-Z0-9]_)"  # an underscore that is not the one of "R_A_mean"
 _ENDINGS = {" max": "largest", " min": "least", " mean": "mean"}  # of names, and what headings say
 
@@ -82,9 +83,9 @@ def value_and_error(value: float | str | None, error: float | None) -> tuple[str
         return number(value), ""
     size = max(abs(value), error)
     exponent = math.floor(math.log10(size))
-    scale = exponent if not -4 <= exponent < 6 else 0
-    last = max(math.floor(math.log10(error)) - 1, exponent - 9) - scale
-    decimals = max(0, -last)
+    last = max(math.floor(math.log10(error)) - 1, exponent - 9)
+    scale = exponent if not -3 <= exponent < 6 or (exponent < 0 and last < -_MOST_DECIMALS) else 0
+    decimals = max(0, scale - last)
     shown, margin = f"{value / 10.0**scale:.{decimals}f}", f"{error / 10.0**scale:.{decimals}f}"
     if float(margin) == 0.0:
         return number(value, 10), ""

@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from trochoid.faults import Key, listed, meant, nearest, quoted
+from trochoid.faults import Key, listed, meant, nearest, quoted, sentence
 from trochoid.scene import units
 from trochoid.scene.casing import Bore, Casing, Mount
 from trochoid.scene.fields import Measure, Table
@@ -44,7 +44,10 @@ def casing_faults(raw: Mapping[str, Any], kind: str | None) -> Iterator[Found]:
         return
     for key in OF_RIGID:
         if key in casing:
-            yield ("casing", key), "an elastic casing has it from its body; take it away, or elastic = true"
+            yield (
+                ("casing", key),
+                "an elastic casing has it from its body; take it away, or take elastic = true away",
+            )
     yield from _body(casing, raw)
     yield from _names(casing)
     if ("box" in casing) != ("mesh_file" in casing):
@@ -98,7 +101,8 @@ def _body(casing: Mapping[str, Any], raw: Mapping[str, Any]) -> Iterator[Found]:
             )
     file = casing.get("mesh_file")
     if isinstance(file, str) and not Path(file).is_file():
-        yield ("casing", "mesh_file"), f"no such file: {quoted(file)}; its place is relative to the scene's"
+        found = "a folder, not the file of a mesh" if Path(file).is_dir() else "no such file"
+        yield ("casing", "mesh_file"), f"{found}: {quoted(file)}; its place is relative to the scene's"
     if _lacks(casing, "damping_ratio", Casing):
         ratio = "a number, e.g. 0.01; of 0 or more and less than 1"
         yield ("casing", "damping_ratio"), f"missing; need the damping ratio of elastic modes, {ratio}"
@@ -108,7 +112,7 @@ def _body(casing: Mapping[str, Any], raw: Mapping[str, Any]) -> Iterator[Found]:
     if isinstance(name, str) and name not in known:
         yield (
             ("casing", "material"),
-            f"no material {quoted(name)}; {meant(name, known)} Or add the table [materials.{name}]",
+            f"no material {quoted(name)}; {sentence(meant(name, known))} Or add the table [materials.{name}]",
         )
 
 

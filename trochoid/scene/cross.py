@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import Any, TypeAlias
 
-from trochoid.faults import Key, listed, meant, nearest, quoted, shown
+from trochoid.faults import Key, listed, meant, nearest, quoted, sentence, shown
 from trochoid.scene import units
 from trochoid.scene.casing_faults import casing_faults
 from trochoid.scene.effects import EFFECTS
@@ -16,9 +16,11 @@ from trochoid.scene.needs import (
     ELASTIC_MODELS,
     FRICTION_OF,
     KINDS,
+    LOADED,
     MESHLESS,
     MODELS_OF,
     NEEDS,
+    NO_FLANK,
     NOT_WITH_SPRINGS,
     QUANTITIES,
     ROLLING_OF,
@@ -93,7 +95,7 @@ def _material(drive: Mapping[str, Any], materials: Mapping[str, Any]) -> Iterato
     if isinstance(name, str) and name not in known:
         yield (
             ("drive", "material"),
-            f"no material {quoted(name)}; {meant(name, known)} Or add the table [materials.{name}]",
+            f"no material {quoted(name)}; {sentence(meant(name, known))} Or add the table [materials.{name}]",
         )
 
 
@@ -230,8 +232,11 @@ def _quantity(raw: Mapping[str, Any], kind: str, name: str, effects: set[str]) -
         yield f"{quoted(name)} needs {_absent(lacking)}"
     if name in NOT_WITH_SPRINGS and _table(raw, "accuracy").get("model") == "springs":
         yield f'{quoted(name)} is not in accuracy.model = "springs" (rigid discs); take "level0" or "strips"'
-    if name in UNDER_TORQUE and _no_torque(_table(raw, "operation").get("output_torque")):
-        yield f"{quoted(name)} needs operation.output_torque above 0: {UNDER_TORQUE[name]}"
+    why = UNDER_TORQUE.get(name)
+    if why is None and kind in LOADED and "elastic_contact" in effects:
+        why = NO_FLANK if name in LOADED[kind] or "elastic_contact" in offered[name] else None
+    if why and _no_torque(_table(raw, "operation").get("output_torque")):
+        yield f"{quoted(name)} needs operation.output_torque above 0: {why}"
 
 
 def _rolls(kind: str, drive: Mapping[str, Any]) -> bool:

@@ -29,6 +29,7 @@ PolarAngle = Annotated[float, Measure(units.ANGLE, above=0.0, most=90.0)]
 PinAngle = Annotated[float, Measure(units.ANGLE, above=0.0, below=90.0)]
 ProductOfInertia = Annotated[float, Measure(units.INERTIA)]
 TeethNumber = Annotated[int, Whole(2, 1000)]
+MomentLoad = Annotated[float, Measure(units.TORQUE, above=0.0)]
 TiltStiffness = Annotated[float, Measure(units.TILT, above=0.0)]
 ROUNDING = 1e-9  # of a moment of inertia
 
@@ -105,6 +106,7 @@ class Support(Bearing):
     """[drive.bearing_b]: between input shaft and casing; one bearing that resists tilting, or two alike."""
 
     spread: Play = 0.0
+    moment_load: MomentLoad | None = None
     tilt_stiffness: TiltStiffness | None = None
 
 
@@ -169,10 +171,8 @@ class PrecessionalDrive(DriveTable):
     @classmethod
     def _turns_the_output(cls, satellite: int, info: ValidationInfo) -> int:
         if satellite == info.data.get("z_wheel"):
-            raise fault(
-                f"given {satellite}, as many as z_wheel: the output would stand still; take {satellite - 1} or "
-                f"{satellite + 1}"
-            )
+            near = " or ".join(str(z) for z in (satellite - 1, satellite + 1) if 2 <= z <= 1000)
+            raise fault(f"given {satellite}, as many as z_wheel: the output would stand still; take {near}")
         return satellite
 
     @field_validator("joint_o")
@@ -206,10 +206,11 @@ class PrecessionalDrive(DriveTable):
         wheel, satellite = info.data.get("z_wheel"), info.data.get("z_satellite")
         if teeth is None or wheel is None or satellite is None:
             return teeth
-        if abs(wheel - satellite) != 1:
+        if abs(wheel - satellite) != 1 and wheel > 2:
+            near = " or ".join(str(z) for z in (wheel - 1, wheel + 1) if 3 <= z <= 1000)
             raise fault(
                 f"z_wheel = {wheel} and z_satellite = {satellite}: flanks are known for numbers that differ by 1; take "
-                f"z_satellite = {wheel - 1} or {wheel + 1}, or leave the table [drive.teeth] out"
+                f"z_satellite = {near}, or leave the table [drive.teeth] out"
             )
         if min(wheel, satellite) < 3:
             raise fault(

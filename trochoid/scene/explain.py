@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import get_args
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
@@ -11,6 +12,7 @@ from trochoid.faults import Key, dotted, listed, meant, nearest, quoted, shown
 from trochoid.scene import form
 from trochoid.scene.effects import EFFECTS
 from trochoid.scene.fields import FAULT
+from trochoid.scene.needs import MODELS_OF
 
 _TABLE_TYPES = ("model_type", "model_attributes_type", "dict_type")
 _EFFECT_TYPES = ("union_tag_invalid", "union_tag_not_found")
@@ -56,7 +58,17 @@ def _message(scene: type[BaseModel], detail: ErrorDetails, key: Key) -> str:
         return f"given {shown(given)}; need a table [{dotted(key)}]"
     if kind == "missing" and isinstance(detail["loc"][-1], str):
         return _missing(scene, key)
+    if key == ("accuracy", "model") and isinstance(given, str):
+        return _model(scene, given)
     return f"given {shown(given)}; need {form.allowed(form.annotation_at(scene, key))}"
+
+
+def _model(scene: type[BaseModel], given: str) -> str:
+    """Say which contact models a kind of drive has, whatever others have."""
+    (kind,) = get_args(form.annotation_at(scene, ("drive", "type")))
+    near = nearest(given, MODELS_OF[kind])
+    advice = f"; did you mean {quoted(near)}?" if near else ""
+    return f"given {shown(given)}; {kind} drives have {listed(MODELS_OF[kind])}{advice}"
 
 
 def _missing(scene: type[BaseModel], key: Key) -> str:

@@ -156,6 +156,8 @@ NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
         "residual_vibration": ("elastic_contact", "inertia"),
         "natural_frequencies": ("elastic_contact", "inertia"),
         "reactions": ("inertia",),
+        "vibration_velocity": ("inertia", "casing_on_mounts"),
+        "vibration_zone": ("inertia", "casing_on_mounts"),
         "mass": (),
     },
 }
@@ -200,7 +202,7 @@ EFFECTS_OF: dict[str, tuple[str, ...]] = {
         "inertia",
         "casing_on_mounts",
     ),
-    "indexer": ("elastic_contact", "clearance", "inertia"),
+    "indexer": ("elastic_contact", "clearance", "inertia", "casing_on_mounts"),
 }
 
 # the contacts of a kind of drive that friction has a coefficient for
@@ -228,6 +230,9 @@ UNDER_TORQUE = {
     "power_loss": "friction follows the forces in the contacts, and nothing would press them",
     "torsional_vibration": "the drive swings on the stiffness that its contacts have under that torque",
 }
+# the kinds of drive whose elastic contacts need that torque, and the quantities that they then change as well
+LOADED = {"planetary": ("bearing_loads", "reactions")}
+NO_FLANK = "no flank is pressed without it"
 NOT_WITH_SPRINGS = ("stress_max",)  # rigid discs on springs have no stress field
 
 # the places where a kind of drive presses its casing, which the bores of an elastic one hold
@@ -236,6 +241,7 @@ SEATS_OF: dict[str, tuple[str, ...]] = {
     "rv": ("ring", "carrier A", "carrier B", "sun"),
     "planetary": ("sun", "ring", "carrier"),
     "precessional": ("fixed wheel", "bearing B", "bearings C", "motor"),
+    "indexer": ("fixed wheel", "input shaft", "motor", "output shaft", "lock"),
 }
 
 # the tables that a rolling bearing may stand in, of kinds of drive that have none of their own

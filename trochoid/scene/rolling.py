@@ -25,6 +25,7 @@ PLAIN: tuple[str, ...] = (
     "needle",
 )  # they press their seat along its radii, alike over their length
 ONE_SIDED: tuple[str, ...] = ("angular_contact", "tapered")
+LEAST_LOAD = 1e-3  # N: less is no load
 INNER_GROOVE, OUTER_GROOVE = 0.52, 0.53  # radii over the ball diameter: those of ISO 281
 
 
@@ -132,11 +133,14 @@ def _fail_if_foreign(table: RollingTable) -> None:
         "contact_angle": bool(table.contact_angle) and table.kind not in ONE_SIDED,
         "inner_groove": table.inner_groove != INNER_GROOVE and table.kind not in BALLS,
         "outer_groove": table.outer_groove != OUTER_GROOVE and table.kind not in BALLS,
+        "axial_load": table.axial_load != 0.0 and table.kind in PLAIN,
         "centrifugal": table.centrifugal and table.kind not in BALLS,
     }
     foreign = [name for name, is_given in given.items() if is_given]
     if foreign:
         raise fault(f'kind = "{table.kind}" has no {", ".join(foreign)}; take it away, or give another kind')
+    if table.radial_load is not None and table.radial_load < LEAST_LOAD:
+        raise fault(f"given radial_load = {table.radial_load:g} N; need {LEAST_LOAD:g} N or more")
     if (table.viscosity_ratio is None) != (table.fatigue_load is None):
         one, other = ("viscosity_ratio", "fatigue_load")[:: 1 if table.fatigue_load is None else -1]
         raise fault(f"{one} needs {other} too: the modified life follows from both")

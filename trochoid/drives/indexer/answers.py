@@ -13,5 +13,6 @@ QUANTITIES = answers(
         "answers_contact": ("contact_pressure_max", "mesh_stiffness", "torsional_stiffness"),
         "answers_modes": ("natural_frequencies",),
         "answers_vibration": ("dynamic_factor", "residual_vibration"),
+        "answers_casing": ("vibration_velocity", "vibration_zone"),
     },
 )

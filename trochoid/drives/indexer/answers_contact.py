@@ -12,6 +12,7 @@ from trochoid.drives.indexer.shaken import lock_of
 from trochoid.drives.indexer.stages import Stages
 from trochoid.drives.indexer.wall import ELASTIC
 from trochoid.fem.pin_slot import Pressed
+from trochoid.kinematics.readable import readable
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Parts, Quantity
 
@@ -136,7 +137,7 @@ def torsional_stiffness(s: Stages) -> Quantity:
     held = (
         "given" if s.scene.drive.wheel.lock_stiffness else "taken as stiff as the pin at the end of the index"
     )
-    turned = f"shaft of {shaft:g} N·m/rad in series" if shaft else "shaft rigid"
+    turned = f"shaft of {readable(shaft, 6)} N·m/rad in series" if shaft else "shaft rigid"
     return Quantity(parts=rows, note=f"{turned}; lock {held}; pin held rigidly in the planet")
 
 

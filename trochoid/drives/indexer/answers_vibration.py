@@ -11,6 +11,7 @@ from trochoid.drives.indexer.design import INDEXER
 from trochoid.drives.indexer.shaken import Shaken
 from trochoid.drives.indexer.stages import Stages
 from trochoid.drives.indexer.words import SAME_TIME
+from trochoid.kinematics.readable import readable
 from trochoid.results.outcome import Parts, Quantity
 
 MODEL = "marched"
@@ -84,7 +85,7 @@ def _residual(s: Stages, x: Shaken) -> Parts:
         "amplitude_on_sphere_radius": Quantity(1e3 * radius * amplitude, "um", 1e3 * radius * error, MODEL),
         "velocity": Quantity(speed, "rad/s", None, MODEL),
         "settling_time": _settling(x),
-        "left_at_next_index": Quantity(x.left, "", None, MODEL),
+        "left_at_next_index": Quantity("held by friction" if x.held else x.left, "", None, MODEL),
         "held_off_by_friction": Quantity(3600.0 * math.degrees(x.offset), "arcsec", None, MODEL),
     }
     for i, omega in enumerate(x.output.frequencies, 1):
@@ -96,5 +97,9 @@ def _residual(s: Stages, x: Shaken) -> Parts:
 def _settling(x: Shaken) -> Quantity:
     if x.settling is not None:
         return Quantity(x.settling, "s", None, MODEL)
-    what = "the dwell" if x.followed > 0.999 else f"{x.fine.dwell.time[-1]:.3g} s, which were followed"
+    if x.held:
+        return Quantity(
+            f"not settled: friction holds it off by {readable(100.0 * x.held)} % of the swing", model=MODEL
+        )
+    what = "the dwell" if x.followed > 0.999 else f"{readable(x.fine.dwell.time[-1])} s, which were followed"
     return Quantity(f"not settled within {what}", model=MODEL)

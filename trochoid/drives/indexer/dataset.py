@@ -12,6 +12,7 @@ from trochoid.drives.entries import ANGLE, Entries, entry, named, numbered
 from trochoid.drives.indexer.design import SHOWN
 from trochoid.drives.indexer.stages import Stages
 from trochoid.drives.indexer.words import FAULT_WORDS, name_of
+from trochoid.drives.vibration_answers import comparison
 from trochoid.kinematics.indexer import Indexer, motion
 from trochoid.kinematics.indexer_slot import pressure_angle
 from trochoid.kinematics.types import Array, BoolArray
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 MOTION, PIN, FORCES = "Motion of the wheel over a turn of the arm", "Pin and slot", "Forces over an index"
 CONTACT = "Pin and slot as elastic bodies"
+VELOCITY = "Vibration velocity of the casing"
 CAPTIONS = {
     MOTION: (
         "0° is the middle of the index; the wheel rests at both sides of it. Where ε jumps is the soft shock. "
@@ -33,6 +35,10 @@ CAPTIONS = {
     CONTACT: (
         "Under the forces of the rigid drive. Where the pin force passes through 0 the contact has no width, and is "
         "softest."
+    ),
+    VELOCITY: (
+        "Amplitudes by all that the drive and its motor put on the casing in a turn of the arm, index and dwell. The "
+        "comb of multiples of the arm's speed is broad: each soft shock is a jump."
     ),
     FORCES: "Rigid, pin without friction in its slot; negative where the pin pushes against the sense of growing ψ.",
 }
@@ -52,13 +58,14 @@ def dataset(stages: Stages, wanted: Collection[str]) -> xarray.Dataset:
         entries |= _forces(stages, angle)
     if "contact" in wanted:
         entries |= _contacts(stages, angle)
+    shaken = _vibration(stages) if "vibration" in wanted else {}
     names = tuple(SHOWN[name] for name in made.mechanisms)
     places = {
         ANGLE: entry((ANGLE,), angle, "rad", "input angle from the middle of the index"),
         "mechanism": named("mechanism", names, "mechanism"),
         "solution": numbered("solution", len(made.solutions), "solution of the task, those that serve first"),
     }
-    return xarray.Dataset(entries | _solutions(stages), places)
+    return xarray.Dataset(entries | shaken | _solutions(stages), places | (_lines(stages) if shaken else {}))
 
 
 def angles(mechanisms: Collection[Indexer], positions: int) -> Array:
@@ -132,6 +139,30 @@ def _forces(stages: Stages, angle: Array) -> Entries:
         "input_torque": entry(dims, series("input_torque"), "N*m", "input torque", FORCES),
         "tooth_force": entry(dims, series("tooth"), "N", "tooth force of the planet", FORCES),
         "input_power": entry(dims, series("power"), "W", "input power"),
+    }
+
+
+def _vibration(stages: Stages) -> Entries:
+    """Return the spectra of the casing's velocity, with and without each effect."""
+    found = stages.vibration.fine
+    best, (low, high) = stages.casing_loads.fine.best, found.elastic.band
+    lines, dims = np.moveaxis(found.elastic.velocity, -1, 0), ("frequency", "point", "direction")
+    rms = f"rms velocity of the casing, {low:g} to {high:g} Hz"
+    return {
+        "vibration_velocity": entry(
+            dims, lines, "m/s", f"velocity, {best}", VELOCITY, scale="log", caption=CAPTIONS[VELOCITY]
+        ),
+        "vibration_rms": entry(dims[1:], found.elastic.rms, "m/s", rms),
+        **comparison(found),
+    }
+
+
+def _lines(stages: Stages) -> Entries:
+    found = stages.vibration.fine.elastic
+    return {
+        "frequency": entry(("frequency",), found.frequencies, "Hz", "frequency"),
+        "point": named("point", tuple(point.name for point in found.points), "point on the casing"),
+        "direction": named("direction", ("x", "y", "z"), "direction"),
     }
 
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from trochoid.drives.indexer.design import Design
 from trochoid.drives.indexer.wheel import hub_angle
 from trochoid.kinematics.indexer_slot import Slot
+
+SLIM = 100.0  # times its thickness, up to which slots are as long in a wheel of finite elements
 
 
 def faults(design: Design, slot: Slot) -> tuple[str, ...]:
@@ -23,6 +26,29 @@ def pin_faults(design: Design) -> tuple[str, ...]:
     return (
         f"pin.overhang = {_mm(d.pin.overhang)}: the pin would be held beyond the centre of the sphere; "
         f"it must be less than sphere_radius - wheel.thickness/2 = {_mm(most)}",
+    )
+
+
+def play_faults(design: Design, slot: Slot) -> tuple[str, ...]:
+    """Return why slots wider than the pin by its play have no room; empty where they have."""
+    d, between = design.drive, between_slots(design, slot)
+    if 2.0 * d.pin_radius >= between or 2.0 * d.pin_radius + d.pin.play < between:
+        return ()
+    return (
+        f"pin.play = {_mm(d.pin.play)}: neighbouring slots, wider by that than a pin with pin_radius = "
+        f"{_mm(d.pin_radius)}, run into each other; it must be less than {_mm(between - 2.0 * d.pin_radius)}",
+    )
+
+
+def too_thin(design: Design, slots: Mapping[str, Slot]) -> str:
+    """Return why a wheel is no body for finite elements, much thinner than its slots are long; empty where it is."""
+    thickness = design.drive.wheel.thickness
+    length = max(slot_length(design, slot) for slot in slots.values())
+    if thickness * SLIM >= length:
+        return ""
+    return (
+        f"wheel.thickness = {_mm(thickness)} beside slots {_mm(length)} long: finite elements are for "
+        f"{_mm(length / SLIM)} and more"
     )
 
 

@@ -41,7 +41,7 @@ class State:
     `wheel_moment` and `arm_moment` tilt wheel and arm in their bearings about the centre of the sphere; `arm_force`
     is what the planet's bearing puts on the arm, `power` what goes into the arm.  As vectors (n, 6) of force (N) and
     moment about the centre (N·m): `on_arm` what planet and teeth put on the arm, `on_wheel` what the pin puts on the
-    wheel.
+    wheel, `on_fixed` what the planet's teeth put on the bevel wheel that stands still.
     """
 
     torque: Array
@@ -54,6 +54,7 @@ class State:
     power: Array
     on_arm: Array
     on_wheel: Array
+    on_fixed: Array
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -131,6 +132,7 @@ def _loaded(indexer: Indexer, load: Load, t: Array, torque: Array, pin: Array) -
         power=input_torque * load.speed,
         on_arm=np.concatenate([force, moment], axis=-1),
         on_wheel=on_wheel,
+        on_fixed=-tooth[:, None] * np.concatenate([along, radius * by_tooth], axis=-1),
     )
 
 

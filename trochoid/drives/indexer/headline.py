@@ -23,6 +23,7 @@ ABSENT_EFFECTS = {
         "The wheel has no mass in the equations: pin force and reactions are those of a drive that creeps against "
         "the friction torque."
     ),
+    "casing_on_mounts": "The casing stands still: there is no vibration velocity and no zone to judge it by.",
 }
 
 NEVER_SIMULATED = {
@@ -31,15 +32,16 @@ NEVER_SIMULATED = {
         "lag, and lowers the natural frequencies."
     ),
     "mass of arm and planet": (
-        "Arm, planet and pin have no mass: their centrifugal forces add to the reactions, and the input torque is "
-        "that of the wheel alone."
+        "Arm, planet and pin have no mass: their centrifugal forces add to the reactions and, at the arm's speed, to "
+        "what shakes the casing; the input torque is that of the wheel alone."
     ),
     "friction in the slot": "The pin pushes along the normal of the slot; sliding takes no power and no tooth force.",
     "separating forces of the teeth": (
         "The bevel teeth push along the pitch circle only: their pressure angle adds to the planet's bearing load."
     ),
     "the lock": (
-        "What holds the wheel in its dwell is not in the picture; the reactions are those of the index alone."
+        "What holds the wheel in its dwell is not in the picture; the reactions are those of the index alone. On the "
+        "casing it acts as a torque about the wheel's axis."
     ),
 }
 

@@ -8,25 +8,29 @@ from dataclasses import replace
 
 import numpy as np
 
+from trochoid.drives.casing_doubt import casing_warnings
 from trochoid.drives.gathering import begun, timed
 from trochoid.drives.indexer import headline
-from trochoid.drives.indexer.design import SHOWN
+from trochoid.drives.indexer.design import INDEXER, SHOWN
 from trochoid.drives.indexer.plan import WHY
 from trochoid.drives.indexer.stages import Stages
+from trochoid.drives.indexer.warned import WIDE, march_warnings
 from trochoid.drives.indexer.words import NAMES
+from trochoid.drives.planning import with_casing
+from trochoid.drives.vibration_answers import casing_checks
 from trochoid.kinematics.indexer import motion
+from trochoid.kinematics.readable import readable
 from trochoid.results.outcome import Check, Outcome, Quantity
 
 EXACT = 1e-9
 MARCHED = 1e-3
-WIDE = 0.2  # of the pin's radius, half width of a contact up to which it is Hertz's
-LEFT = 0.01  # of the amplitude, left when the next index starts
 
 
 def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
     """Gather what the stages hold; no stage is started here but the figures' own."""
     ran = tuple(stages.clock.seconds)
-    made = begun(stages, quantities, WHY, headline, headline.not_simulated(stages.scene))
+    why, _ = with_casing(stages.scene, WHY, {})
+    made = begun(stages, quantities, why, headline, headline.not_simulated(stages.scene))
     made = replace(made, checks=checks(stages, ran), warnings=warnings(stages, ran))
     if "motion" in ran or "geometry" in ran:
         with stages.clock.stage("figures"):
@@ -74,12 +78,32 @@ def checks(stages: Stages, ran: tuple[str, ...]) -> tuple[Check, ...]:
             for name, x in stages.reactions.items()
             if "elastic" in x
         ]
-    if "vibration" in ran and stages.response[0]:
+    if "march" in ran and stages.response[0]:
         found += [
             Check.within(f"work of the pin = energy and losses, {NAMES[name]}", x.balance, MARCHED)
             for name, x in stages.shaken.items()
         ]
+    if "vibration" in ran:
+        found += _casing_checks(stages)
     return tuple(found)
+
+
+def _casing_checks(stages: Stages) -> list[Check]:
+    """Return the balances of what is put on the casing."""
+    from trochoid.drives.indexer.casing_loads import inertia_residual
+    from trochoid.drives.vibration import RIGID
+
+    loads = stages.casing_loads.fine
+    off = inertia_residual(stages.forces[INDEXER], loads.cycles[RIGID])
+    found = [
+        Check.within(
+            "rigid loads on the casing sum to the wheel's inertia and the friction torque", off, EXACT
+        ),
+        Check.within(
+            "loads on the casing sum to the torque on the wheel, by every model", loads.residual, EXACT
+        ),
+    ]
+    return [*found, *casing_checks(stages.vibration.fine)]
 
 
 def warnings(stages: Stages, ran: tuple[str, ...]) -> tuple[str, ...]:
@@ -98,6 +122,10 @@ def warnings(stages: Stages, ran: tuple[str, ...]) -> tuple[str, ...]:
         )
     if "contact" in ran:
         said += _mesh_warnings(stages) + _elastic_warnings(stages, ran)
+    if "vibration" in ran:
+        said += stages.vibration.fine.elastic.warnings
+        said += casing_warnings(stages.scene, stages.vibration)
+        said += _followed(stages)
     if "geometry" not in ran:
         return tuple(said)
     travel, within = stages.slots["indexer"], made.drive.dwell_tolerance
@@ -116,6 +144,19 @@ def warnings(stages: Stages, ran: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(said)
 
 
+def _followed(stages: Stages) -> list[str]:
+    """Say where the casing is shaken by less than the march of a whole cycle."""
+    marched, why = stages.response
+    if why:
+        return [f"the casing is shaken by the rigid drive alone: {why}"]
+    short = {name: x.followed for name, x in marched.items() if name in SHOWN} if marched else {}
+    return [
+        f"{NAMES[name]}: the march follows {readable(100.0 * part)} % of the dwell; the rest shakes the casing no more"
+        for name, part in short.items()
+        if part < 1.0
+    ]
+
+
 def _mesh_warnings(stages: Stages) -> list[str]:
     """Say where two meshes differ by more than the tolerance."""
     accuracy = stages.scene.accuracy
@@ -123,7 +164,7 @@ def _mesh_warnings(stages: Stages) -> list[str]:
         return []
     worst = {name: x.differences["stiffness"] for name, x in stages.pairs.items() if x.coarse is not None}
     return [
-        f"{NAMES[name]}: two meshes suggest an error of {100.0 * off:.2g} % in stiffness, more than "
+        f"{NAMES[name]}: two meshes suggest an error of {readable(100.0 * off, 2)} % in stiffness, more than "
         f"accuracy.tolerance = {accuracy.tolerance:g}, on the finest mesh that a run takes by itself; "
         "accuracy.facets_per_lobe may name a finer one"
         for name, off in worst.items()
@@ -141,19 +182,15 @@ def _elastic_warnings(stages: Stages, ran: tuple[str, ...]) -> list[str]:
         wide, along = float(pressed.half_width.max()), float(pressed.along.max())
         if wide > WIDE * pair.pin.radius:
             said.append(
-                f"{NAMES[name]}: the contact's half width of {1e3 * wide:.3g} mm is no small part of pin_radius = "
-                f"{1e3 * pair.pin.radius:.4g} mm: pressure and stiffness are Hertz's, for narrow contacts"
+                f"{NAMES[name]}: the contact's half width of {readable(1e3 * wide)} mm is no small part of "
+                f"pin_radius = {readable(1e3 * pair.pin.radius, 4)} mm: pressure and stiffness are Hertz's, "
+                "for narrow contacts"
             )
         if along > 0.5 * pair.pin.thickness:
             said.append(
-                f"{NAMES[name]}: the contact would be {2e3 * along:.3g} mm long on a wheel of "
-                f"{1e3 * pair.pin.thickness:.4g} mm; it presses at its ends: take a smaller pin.crown_radius"
+                f"{NAMES[name]}: the contact would be {readable(2e3 * along)} mm long on a wheel of "
+                f"{readable(1e3 * pair.pin.thickness, 4)} mm; it presses at its ends: take a smaller pin.crown_radius"
             )
-    if "vibration" in ran and stages.response[0]:
-        said += [
-            f"{NAMES[name]}: {100.0 * x.left:.2g} % of the residual vibration are left when the next index starts; "
-            "each index is computed from rest"
-            for name, x in stages.shaken.items()
-            if x.left > LEFT
-        ]
+    if "march" in ran and stages.response[0]:
+        said += march_warnings(stages.shaken)
     return said

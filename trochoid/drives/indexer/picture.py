@@ -28,7 +28,7 @@ def plots(stages: Stages, ran: Collection[str]) -> tuple[Plot, ...]:
         from trochoid.drives.indexer.picture_slot import slot_plots
 
         found += slot_plots(stages.pairs)
-    if "vibration" in ran and stages.response[0]:
+    if "march" in ran and stages.response[0]:
         from trochoid.drives.indexer.picture_shaken import courses
 
         found += courses(stages.shaken)

@@ -19,6 +19,7 @@ from trochoid.fem.pin_slot import Pin, Pressed, press
 from trochoid.fem.slot_contact import ElasticPair, press_elastic
 from trochoid.kinematics.errors import Infeasible, NotConverged
 from trochoid.kinematics.indexer_slot import Slot
+from trochoid.kinematics.readable import readable
 from trochoid.kinematics.types import Array
 from trochoid.scene.drive_indexer import IndexerScene
 
@@ -27,6 +28,9 @@ LARGE = 0.1  # rad, by which a wheel that an elastic pin drives does not lag
 LOADED = 0.01  # of the largest force, below which a stiffness is not reported
 SAMPLES = 181
 PLACES = 5  # of an index, and that of the largest force, at which two meshes are compared
+SHARE = (
+    0.8  # 1/(1.5² − 1): of what two meshes differ by, one of them 1.5 times finer, at second order at least
+)
 LEAST = 0.15  # of the worst number's relative error: single numbers agree by chance
 
 Presses = Callable[[Array, Array], Pressed]
@@ -57,19 +61,32 @@ def law_of(
 
     `ends` (rad) of the pin's way along the slot where the law depends on it, else None.
     """
-    top = 0.0
+    return tabulated(presses, ends, top_of(pin, presses, ends, largest), play / pin.distance)
+
+
+def top_of(pin: Pin, presses: Presses, ends: tuple[float, float] | None, largest: float) -> float:
+    """Return the angle (rad) at which a pin carries `RESERVE` times the moment `largest` (N·m).  Raises Infeasible."""
+    most = 0.0
     for tries in np.append(np.geomspace(1e-9, LARGE, 41), np.full(4, LARGE)).reshape(-1, 5):
         reached = np.min([presses(tries, np.full(len(tries), x)).moment for x in ends or (0.0,)], axis=0)
         if (i := int(np.searchsorted(reached, RESERVE * largest))) < len(tries):
-            top = float(tries[i])
-            break
-    else:
-        raise Infeasible(
-            f"pin_radius = {1e3 * pin.radius:.6g} mm: under {largest / pin.distance:.4g} N, with {RESERVE:g} times "
-            f"that in reserve, pin and slot would yield by more than {1e3 * LARGE * pin.distance:.3g} mm; "
-            "the pin must be thicker, or change operation.output_torque or input_speed"
-        )
-    return tabulated(presses, ends, top, play / pin.distance)
+            return float(tries[i])
+        most = float(reached[-1])
+    raise Infeasible(
+        f"pin_radius = {1e3 * pin.radius:.6g} mm: under {readable(largest / pin.distance, 4)} N, with {RESERVE:g} "
+        f"times that in reserve, pin and slot would yield by more than {1e3 * LARGE * pin.distance:.3g} mm; "
+        f"{readable(most / RESERVE / pin.distance)} N are the most that serve: pin or wheel must be thicker, or change "
+        "operation.output_torque or input_speed"
+    )
+
+
+def fail_if_absurd(pin: Pin, forces: Mapping[str, Forces]) -> None:
+    """Raise Infeasible where a pin in a wall that does not bend yields too far; without any finite elements."""
+    largest = max(abs(x.largest(lambda y: y.pin)[0]) for x in forces.values()) * pin.distance
+    try:
+        top_of(pin, presses(pin, None), None, largest)
+    except NotConverged:  # its closed form is for thin pins in thick walls
+        return
 
 
 def tabulated(presses: Presses, ends: tuple[float, float] | None, top: float, play: float) -> PinLaw:
@@ -176,7 +193,7 @@ class Pair:
 
     @cached_property
     def differences(self) -> dict[str, float]:
-        """Half of what two meshes differ by over an index, relative, and no less than a share of the worst."""
+        """`SHARE` of what two meshes differ by over an index, relative, and no less than a share of the worst."""
         assert self.elastic is not None
         assert self.coarse is not None
         return differences(self.elastic, self.coarse, self.forces)
@@ -213,8 +230,8 @@ def differences(fine: ElasticPair, coarse: ElasticPair, forces: Forces) -> dict[
     one, other = (press_elastic(x, u, reach) for x in (fine, coarse))
     other = press_elastic(coarse, u * one.moment / other.moment, reach)  # under about the same force
     found = {
-        "stiffness": 0.5 * float(np.abs(one.slope / other.slope - 1.0).max()),
-        "pressure": 0.5 * float(np.abs(one.pressure.max(axis=1) / other.pressure.max(axis=1) - 1.0).max()),
+        "stiffness": SHARE * float(np.abs(one.slope / other.slope - 1.0).max()),
+        "pressure": SHARE * float(np.abs(one.pressure.max(axis=1) / other.pressure.max(axis=1) - 1.0).max()),
     }
     return {name: max(x, LEAST * max(found.values())) for name, x in found.items()}
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from trochoid.clock import Clock
 from trochoid.drives.indexer.stages import Stages
-from trochoid.drives.planning import planned
+from trochoid.drives.planning import planned, with_casing
 from trochoid.plan import Plan
 from trochoid.scene.drive_indexer import IndexerScene
 
 _GEOMETRY = ("synthesis", "geometry")
 _FORCES = (*_GEOMETRY, "mass", "forces")
 _CONTACT = (*_FORCES, "bodies", "contact")
-_VIBRATION = (*_CONTACT, "vibration")
+_MARCH = (*_CONTACT, "march")
 
 STAGES_OF: dict[str, tuple[str, ...]] = {
     "ratio": ("synthesis",),
@@ -24,10 +24,12 @@ STAGES_OF: dict[str, tuple[str, ...]] = {
     "contact_pressure_max": _CONTACT,
     "mesh_stiffness": _CONTACT,
     "torsional_stiffness": _CONTACT,
-    "dynamic_factor": _VIBRATION,
-    "residual_vibration": _VIBRATION,
+    "dynamic_factor": _MARCH,
+    "residual_vibration": _MARCH,
     "natural_frequencies": (*_CONTACT, "modes"),
     "reactions": (*_FORCES, "reactions"),
+    "vibration_velocity": (*_FORCES, "vibration"),
+    "vibration_zone": (*_FORCES, "vibration"),
     "mass": (*_GEOMETRY, "mass"),
 }
 
@@ -39,9 +41,10 @@ WHY = {
     "forces": "pin force, mesh force and input torque over an index",
     "bodies": "slotted wheel and pin as finite elements: meshed, factored, pressed along a slot",
     "contact": "pin and wall of the slot as elastic bodies: pressure and stiffness over an index",
-    "vibration": "the elastic wheel over an index and its dwell, marched in steps of its shortest period",
+    "march": "the elastic wheel over an index and its dwell, marched in steps of its shortest period",
     "reactions": "loads on teeth, bearings and input over a turn, by model",
     "modes": "natural frequencies of the output at frozen positions",
+    "vibration": "velocity of the casing on its mounts over a turn of the arm",
 }
 
 
@@ -54,12 +57,15 @@ def plan(scene: IndexerScene) -> Plan:
     bodies = 4.0 if meshed else 0.0
     stages_of = dict(STAGES_OF)
     if scene.has("elastic_contact") and scene.has("inertia"):
-        stages_of["reactions"] = (*_VIBRATION, "reactions")
+        stages_of["reactions"] = (*_MARCH, "reactions")
+        for name in ("vibration_velocity", "vibration_zone"):
+            stages_of[name] = (*_MARCH, "vibration")
+    why, stages_of = with_casing(scene, WHY, stages_of)
     made = planned(
         scene,
-        WHY,
+        why,
         stages_of,
-        {"synthesis": 0.03, "bodies": bodies, "contact": 0.7, "vibration": 2.5},
+        {"synthesis": 0.03, "bodies": bodies, "contact": 0.7, "march": 2.5, "vibration": 0.3},
         f"closed forms{elastic}",
     )
     stages = Stages(scene, Clock())

@@ -10,6 +10,7 @@ from trochoid.drives.indexer.dataset import wheel_angle, within
 from trochoid.drives.indexer.outline import flat, outline, to_wheel, turned
 from trochoid.drives.indexer.stages import Stages
 from trochoid.drives.paths import Path, framed
+from trochoid.kinematics.readable import readable
 from trochoid.kinematics.types import Array
 from trochoid.results.outcome import Arrow, Drawing
 
@@ -65,6 +66,6 @@ def _forces(stages: Stages, t: Array, center: Array) -> list[tuple[Arrow, ...]]:
     distance = np.linalg.norm(center, axis=-1, keepdims=True)
     across = np.stack((-center[:, 1], center[:, 0]), axis=-1) / distance
     return [
-        (Arrow(c, f * a, "pin force", f"{abs(f):.4g} N"),)
+        (Arrow(c, f * a, "pin force", f"{readable(abs(f), 4)} N"),)
         for c, f, a in zip(center, force, across, strict=True)
     ]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from trochoid.drives.indexer.shaken import Shaken
 
 RIGID, ELASTIC = "rigid", "elastic"
-SAMPLES = 8192  # of a turn, for harmonics
-HARMONICS = 400
+SAMPLES = 8192  # of a turn, for harmonics, and four for each of more
+HARMONICS, MOST = 400, 16384  # lines of a turn, and so many at the most
+BEYOND = 1.25  # times the fastest mode, up to which lines are taken
 
 ASKED: dict[str, tuple[Callable[[State], Array], str]] = {
     "tooth_force": (lambda x: x.tooth, "N"),
@@ -80,12 +81,14 @@ class Turn:
     """Reactions of one mechanism by one model.
 
     `state` at the drive angles `angle` (n,) of the index, where extremes are looked for, is by `at` at any angles.
+    `count` is the number of its lines.
     """
 
     forces: Forces
     shafts: Shafts
     angle: Array
     at: Callable[[Array], State]
+    count: int = HARMONICS
 
     @cached_property
     def state(self) -> State:
@@ -115,14 +118,15 @@ class Turn:
 
     @cached_property
     def lines(self) -> dict[str, Array]:
-        """Amplitudes (HARMONICS + 1,) of every reaction over a turn, multiples of the arm's speed; 0: the mean."""
-        turn = 2.0 * math.pi * np.arange(SAMPLES) / SAMPLES - math.pi
+        """Amplitudes (count + 1,) of every reaction over a turn, multiples of the arm's speed; 0: the mean."""
+        samples = max(SAMPLES, 1 << (4 * self.count - 1).bit_length())
+        turn = 2.0 * math.pi * np.arange(samples) / samples - math.pi
         inside = np.abs(turn) <= self.forces.indexer.half_turn
         found = {}
         for name, values in self.series(self.at(turn[inside])).items():
-            whole = np.zeros(SAMPLES)
+            whole = np.zeros(samples)
             whole[inside] = values
-            found[name] = np.abs(harmonics(whole))[: HARMONICS + 1]
+            found[name] = np.abs(harmonics(whole))[: self.count + 1]
         return found
 
     def residual(self) -> float:
@@ -153,9 +157,16 @@ def elastic_turn(x: Shaken, held: Shafts) -> Turn:
 def turns(
     forces: Mapping[str, Forces], held: Shafts, shaken: Mapping[str, Shaken] | None
 ) -> dict[str, dict[str, Turn]]:
-    """Return the reactions of each mechanism by model; `shaken` None: rigid alone."""
+    """Return the reactions of each mechanism by model, with as many lines; `shaken` None: rigid alone."""
     found = {name: {RIGID: rigid_turn(x, held)} for name, x in forces.items()}
     for name in found if shaken else ():
         assert shaken is not None
-        found[name][ELASTIC] = elastic_turn(shaken[name], held)
+        made = {**found[name], ELASTIC: elastic_turn(shaken[name], held)}
+        count = lines_of(shaken[name])
+        found[name] = {model: replace(turn, count=count) for model, turn in made.items()}
     return found
+
+
+def lines_of(x: Shaken) -> int:
+    """Return how many multiples of the arm's speed hold all natural frequencies of a march."""
+    return min(max(HARMONICS, math.ceil(BEYOND * x.fastest / x.speed)), MOST)

@@ -10,31 +10,39 @@ from functools import cached_property
 import numpy as np
 
 from trochoid.drives.indexer.design import GENEVA, INDEXER
-from trochoid.drives.indexer.pin import Pair
+from trochoid.drives.indexer.pin import LARGE, Pair
 from trochoid.drives.indexer.wheel import WheelMass
-from trochoid.drives.indexer.words import SAME_TIME
-from trochoid.dynamics.indexing import STEPS, Index, Response, respond
+from trochoid.drives.indexer.words import NAMES, SAME_TIME
+from trochoid.dynamics.indexing import STEPS, Index, Response, respond, stiffest_of
 from trochoid.dynamics.indexing_parts import Output
 from trochoid.fem.pin_slot import Pressed
-from trochoid.kinematics.errors import Infeasible
+from trochoid.kinematics.errors import Infeasible, NotConverged, TrochoidError
 from trochoid.kinematics.indexer import Indexer, motion
+from trochoid.kinematics.readable import readable
 from trochoid.kinematics.types import Array
 from trochoid.scene.drive_indexer import IndexerScene
 
 NOTHING = 1e-9  # of the largest lag in the index, below which an amplitude is rounding
 SETTLED = 0.05  # of its amplitude, below which a vibration has settled
 LARGER = 4.0  # times, by which the table of the law grows when a response leaves it
-TRIES = 6
+LESS = (2.5, 1.6, 1.3)  # where the contacts of so long a table are too wide
+TRIES = 9
+STIFF, STIFFISH = 1000.0, 10.0  # times the contact's stiffness, from which a shaft is rigid, and may be
+HELD = 0.01  # of the swing, from which friction holds the output off its stop by more than a drive may
 
 
 @dataclass(frozen=True, eq=False)
 class Shaken:
-    """The elastic response of one mechanism beside its rigid forces; `coarse` has steps twice as long."""
+    """The elastic response of one mechanism beside its rigid forces; `coarse` has steps twice as long.
+
+    `stiffer`: how many times the shaft's stiffness is that of pin and slot, where it counts as rigid; else 0.
+    """
 
     pair: Pair
     output: Output
     fine: Response
     coarse: Response
+    stiffer: float = 0.0
 
     @property
     def speed(self) -> float:
@@ -105,15 +113,19 @@ class Shaken:
         """Largest way (rad) of the output after the stop from where it ends, and its error by the steps."""
         one, two = (float(np.abs(x.dwell.deviation - _held_off(x)).max()) for x in (self.fine, self.coarse))
         scale = float(np.abs(self.fine.index.deviation).max())
-        return (one if one > NOTHING * scale else 0.0), abs(one - two)
+        if one <= NOTHING * scale:
+            return 0.0, 0.0 if two <= NOTHING * scale else two
+        return one, abs(one - two)
 
     @property
     def settling(self) -> float | None:
         """Time (s) after the stop from which the output stays within a part of its amplitude of where it ends.
 
-        None where it does not within the dwell, or the part of it that was followed.
+        None where it does not within the dwell, or the part of it that was followed, or where friction `held` it off.
         """
         dwell = self.fine.dwell
+        if self.held:
+            return None
         away = np.abs(dwell.deviation - self.offset)
         outside = np.flatnonzero(away > SETTLED * self.amplitude[0]) if self.amplitude[0] > 0.0 else away[:0]
         if not outside.size:
@@ -126,12 +138,31 @@ class Shaken:
         """Part of the dwell that was followed, where the output still swings at the end of it; else 1."""
         dwell, speed = self.fine.dwell, self.speed
         rest = 2.0 * (math.pi - self.pair.forces.indexer.half_turn) / speed
-        return 1.0 if self.settling is not None else min(1.0, float(dwell.time[-1]) / rest)
+        ended = self.fine.stuck or self.settling is not None
+        return 1.0 if ended else min(1.0, float(dwell.time[-1]) / rest)
 
     @property
     def offset(self) -> float:
         """Where friction holds the output in the end (rad), 0 where it still swings."""
         return _held_off(self.fine)
+
+    @property
+    def held(self) -> float:
+        """Part of the swing by which friction holds the output off its stop, where that is much; else 0."""
+        part = abs(self.offset) / self.pair.forces.indexer.swing
+        return part if part >= HELD else 0.0
+
+    @property
+    def moves(self) -> bool:
+        """Whether the output moves at all in an index."""
+        found = self.fine.index
+        return bool(np.abs(found.base + found.speed).max() > 1e-9 * found.base.max())
+
+    @property
+    def fastest(self) -> float:
+        """Largest natural frequency (rad/s) that the march can have in it."""
+        index = _index(self.pair.forces.indexer, self.speed)
+        return self.output.frequencies_at(stiffest_of(index, self.output, self.pair.law))[-1]
 
     @property
     def left(self) -> float:
@@ -165,7 +196,13 @@ def shaken(scene: IndexerScene, wheel: WheelMass, pairs: Mapping[str, Pair]) -> 
         asked[SAME_TIME] = replace(
             pairs[GENEVA], forces=replace(theirs, load=replace(theirs.load, speed=speed))
         )
-    return {name: _shaken(scene, wheel, pair) for name, pair in asked.items()}
+    found = {}
+    for name, pair in asked.items():
+        try:
+            found[name] = _shaken(scene, wheel, pair)
+        except Infeasible as fault:
+            raise Infeasible(f"{NAMES[name]}: {fault}") from fault
+    return found
 
 
 def output_of(scene: IndexerScene, wheel: WheelMass, pair: Pair) -> Output:
@@ -193,17 +230,57 @@ def lock_of(scene: IndexerScene, pair: Pair) -> float:
 
 
 def _shaken(scene: IndexerScene, wheel: WheelMass, pair: Pair) -> Shaken:
-    output = output_of(scene, wheel, pair)
+    output, stiffer = output_of(scene, wheel, pair), 0.0
     index = _index(pair.forces.indexer, pair.forces.load.speed)
     for _ in range(TRIES):
-        fine = respond(index, output, pair.law)
+        times = output.shaft / stiffest_of(index, output, pair.law)
+        try:
+            if times >= STIFF:
+                raise NotConverged("its mode is far above all others")
+            fine = respond(index, output, pair.law)
+        except NotConverged:
+            if times < STIFFISH:
+                raise
+            output, stiffer = _without_shaft(scene, output), times
+            fine = respond(index, output, pair.law)
         lever = np.sin(index.sample(fine.index.time)[0])
-        if float(np.abs(fine.index.torque / lever).max()) <= pair.law.largest:
-            return Shaken(pair, output, fine, respond(index, output, pair.law, STEPS // 2))
-        pair = pair.longer(LARGER)
-    raise Infeasible(
-        f"the pin strikes its slot with more than {pair.law.largest / pair.pin.distance:.3g} N; "
-        "give pin.play a smaller value, or operation.input_speed"
+        peak = float(np.abs(fine.index.torque / lever).max())
+        if peak <= pair.law.largest:
+            return Shaken(pair, output, fine, respond(index, output, pair.law, STEPS // 2), stiffer)
+        pair = longer(pair, peak)
+    raise Infeasible(_strikes(pair, peak))
+
+
+def _without_shaft(scene: IndexerScene, output: Output) -> Output:
+    """Return wheel and load in one."""
+    made = replace(output, inertia=output.inertia + output.load, shaft=0.0, load=0.0)
+    return replace(made, damping=2.0 * scene.operation.damping_ratio / made.frequencies[0])
+
+
+def longer(pair: Pair, peak: float) -> Pair:
+    """Return the pair with a table that reaches farther, for a moment `peak` (N·m).
+
+    Raises Infeasible where contacts of pin and slot are no more than that: too wide for it, or yielding too far.
+    """
+    needed = max(1.2 * peak / pair.law.largest, 1.2)
+    for times in (LARGER, *(x for x in (needed, *LESS) if x < LARGER)):
+        try:
+            if times * pair.law.top <= LARGE:
+                return pair.longer(times)
+        except TrochoidError:
+            continue
+    raise Infeasible(_strikes(pair, peak))
+
+
+def _strikes(pair: Pair, peak: float) -> str:
+    """Say what would serve: a free pin strikes with a force as its speed, and that is as √play."""
+    part = pair.law.largest / peak
+    play = 2e3 * pair.law.play * pair.pin.distance
+    less = f"pin.play about {readable(play * part**2, 2)} mm, or " if play > 0.0 else ""
+    return (
+        f"the pin strikes its slot with about {readable(peak / pair.pin.distance)} N, and pin and slot of these sizes "
+        f"are narrow contacts up to {readable(pair.law.largest / pair.pin.distance)} N only: give {less}"
+        f"about {readable(part, 2)} times the operation.input_speed"
     )
 
 

@@ -8,20 +8,26 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from trochoid.clock import Clock
+from trochoid.drives.casing import casing_reasons
 from trochoid.drives.indexer.design import Design, design
 from trochoid.kinematics.errors import Infeasible, NotConverged
 from trochoid.kinematics.indexer_slot import Slot, slot
 from trochoid.scene.drive_indexer import IndexerScene
 
 if TYPE_CHECKING:
+    from trochoid.drives.casing import Shaken as ShakenCasing
     from trochoid.drives.indexer.forces import Forces
     from trochoid.drives.indexer.measures import Measured
     from trochoid.drives.indexer.modes import Modes
     from trochoid.drives.indexer.pin import Pair
     from trochoid.drives.indexer.reactions import Turn
     from trochoid.drives.indexer.shaken import Shaken
+    from trochoid.drives.indexer.vibration import Loads
     from trochoid.drives.indexer.wall import Bodies
     from trochoid.drives.indexer.wheel import WheelMass
+    from trochoid.drives.mesh_error import Pair as Levels
+    from trochoid.drives.vibration import CasingVibration
+    from trochoid.fem.solid import SolidBody
 
 
 @dataclass(frozen=True)
@@ -58,11 +64,14 @@ class Stages:
         """The design, once the wheel has been found possible; raises Infeasible with every reason."""
         made, travel = self.design, self.slots
         with self.clock.stage("geometry"):
-            from trochoid.drives.indexer.feasible import faults, pin_faults
+            from trochoid.drives.indexer.feasible import faults, pin_faults, play_faults
 
             reasons = faults(made, travel["indexer"])
             if self.scene.has("elastic_contact"):
                 reasons += pin_faults(made)
+                if self.scene.has("clearance"):
+                    reasons += play_faults(made, travel["indexer"])
+            reasons = (*reasons, *casing_reasons(self.scene))
             if reasons:
                 raise Infeasible("\n".join(reasons))
         return made
@@ -95,12 +104,19 @@ class Stages:
         """Slotted wheels and pins as finite elements, on two mesh levels."""
         made, loads = self.feasible, self.forces
         with self.clock.stage("bodies"):
-            from trochoid.drives.indexer.pin import differences, pin_of
-            from trochoid.drives.indexer.wall import Bodies, bodies
+            from trochoid.drives.indexer.feasible import too_thin
+            from trochoid.drives.indexer.pin import differences, fail_if_absurd, pin_of
+            from trochoid.drives.indexer.wall import ELASTIC, RIGID, Bodies, bodies
 
             if all(x.largest(lambda y: y.pin)[0] == 0.0 for x in loads.values()):
                 return Bodies(None, None)
             pin = pin_of(self.scene, made, self.slots["indexer"])
+            fail_if_absurd(pin, loads)
+            thin, model = too_thin(made, self.slots), self.scene.accuracy.model
+            if thin and model == ELASTIC:
+                raise Infeasible(thin)
+            if thin and model != RIGID:
+                return Bodies(None, None, refusal=thin)
             return bodies(
                 self.scene,
                 made,
@@ -138,7 +154,7 @@ class Stages:
     def shaken(self) -> Mapping[str, Shaken]:
         """Response of wheel and output over an index and its dwell, of the Geneva wheel also in the same time."""
         loaded, wheel = self.pairs, self.wheel
-        with self.clock.stage("vibration"):
+        with self.clock.stage("march"):
             from trochoid.drives.indexer.shaken import shaken
 
             return shaken(self.scene, wheel, loaded)
@@ -175,3 +191,36 @@ class Stages:
             from trochoid.drives.indexer.modes import modes
 
             return modes(self.scene, wheel, loaded)
+
+    @cached_property
+    def casing_body(self) -> SolidBody:
+        """The elastic casing as a finite-element body."""
+        from trochoid.drives.casing_body import casing_body
+
+        return casing_body(self.scene, self.clock)
+
+    @cached_property
+    def casing(self) -> Levels[ShakenCasing]:
+        """The casing, and its variants without single effects."""
+        from trochoid.drives.casing_body import casings
+
+        return casings(self.scene, self.clock, lambda: self.casing_body)
+
+    @cached_property
+    def casing_loads(self) -> Levels[Loads]:
+        """What presses the casing over a turn of the arm, index and dwell; where marched, on two lengths of steps."""
+        found, (responses, _) = self.forces, self.response
+        with self.clock.stage("vibration"):
+            from trochoid.drives.indexer.vibration import casing_loads
+
+            return casing_loads(found, responses)
+
+    @cached_property
+    def vibration(self) -> Levels[CasingVibration]:
+        """Vibration velocity of the casing and its zone."""
+        loads, casing = self.casing_loads, self.casing
+        with self.clock.stage("vibration"):
+            from trochoid.drives.indexer.vibration import casing_vibration
+            from trochoid.drives.vibration import on_levels
+
+            return on_levels(loads, casing, lambda found, shaken: casing_vibration(self.scene, found, shaken))

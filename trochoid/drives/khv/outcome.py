@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from trochoid.drives.casing_doubt import casing_warnings
 from trochoid.drives.choosing import doubtful
 from trochoid.drives.gathering import begun, timed
 from trochoid.drives.khv import headline
@@ -183,4 +184,5 @@ def warnings(stages: Stages) -> tuple[str, ...]:
             said += found.response.warnings
     if "vibration" in ran:
         said += stages.vibration.fine.elastic.warnings
+        said += casing_warnings(scene, stages.vibration)
     return tuple(said)

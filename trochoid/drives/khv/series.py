@@ -9,6 +9,7 @@ import numpy as np
 
 from trochoid.drives.khv.contact import assembly, layout, side_slopes
 from trochoid.drives.khv.design import Design
+from trochoid.drives.unsolved import unsolved
 from trochoid.fem.moving import softness, wandering
 from trochoid.fem.position import Contact, ElasticBody, Touch, solve_position, solve_positions
 from trochoid.fem.rows import joined
@@ -101,8 +102,7 @@ def solve_series(
         try:
             contact = solve_positions(problem, resolve=rung == "strips")
         except NotConverged as fault:
-            at = np.degrees(angle[rows][fault.row or 0])
-            raise NotConverged(f"at input angle {at:.6g}°: {fault}") from fault
+            raise unsolved(fault, angle[rows][fault.row or 0], layout(design, rung).names) from fault
         parts.append((rows, contact))
         wanders[rows] = wandering(problem, contact, softness(contact.stiffness, row), sides)
         progress(int(rows[-1]) + 1)
@@ -117,7 +117,7 @@ def solve_at(
     try:
         return solve_position(problem, resolve=rung == "strips", start=start)
     except NotConverged as fault:
-        raise NotConverged(f"at input angle {np.degrees(angle):.6g}°: {fault}") from fault
+        raise unsolved(fault, angle, layout(design, rung).names) from fault
 
 
 def _gathered(design: Design, rung: str, angle: Array, contact: Contact, wanders: Array) -> Series:

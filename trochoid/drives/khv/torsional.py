@@ -204,14 +204,32 @@ def _joined(made: Pendulum, phase: Array) -> tuple[Array, Array]:
     return k, e
 
 
+def _restless(made: Pendulum, where: str) -> str:
+    """Say why there may be no steady motion, and what to try."""
+    wound, said = made.torque / made.mean_stiffness, f"no steady motion was found {where}"
+    if wound < made.half_gap:
+        return (
+            f"{said}: operation.output_torque = {made.torque:g} N*m winds the drive up by {wound:.2g} rad, its "
+            f"backlash is {2.0 * made.half_gap:.2g} rad, so that it rattles; give a larger torque (both are alike at "
+            f'{2.0 * made.half_gap * made.mean_stiffness:.3g} N*m), or take the effect "{BACKLASH}" away'
+        )
+    return f"{said}; give more operation.damping_ratio, more ask.positions or another operation.input_speed"
+
+
 def torsional(made: Pendulum, speed: float) -> Torsional:
     """Solve for the motion at `speed` (rad/s) and sweep past it; raises NotConverged where no motion is found."""
     speeds = speed * np.linspace(SLOWEST, FASTEST, SPEEDS)
-    motion = steady(made.system, (made.local,), made.loads(speed), speed)
-    if made.half_gap == 0.0:  # linear: one motion at any speed
-        up = tuple(steady(made.system, (made.local,), made.loads(float(s)), float(s)) for s in speeds)
-    else:
-        up = sweep(made.system, (made.local,), made.loads, speeds)
+    try:
+        motion = steady(made.system, (made.local,), made.loads(speed), speed)
+    except NotConverged as fault:
+        raise NotConverged(_restless(made, f"at {speed:.6g} rad/s")) from fault
+    try:
+        if made.half_gap == 0.0:  # linear: one motion at any speed
+            up = tuple(steady(made.system, (made.local,), made.loads(float(s)), float(s)) for s in speeds)
+        else:
+            up = sweep(made.system, (made.local,), made.loads, speeds)
+    except NotConverged as fault:
+        raise NotConverged(_restless(made, f"from {speeds[0]:.6g} to {speeds[-1]:.6g} rad/s")) from fault
     down = up
     if made.half_gap > 0.0 and any(each.force.min() <= 0.0 for each in up):
         with suppress(NotConverged):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from trochoid.drives.casing_doubt import casing_warnings
 from trochoid.drives.choosing import doubtful, unheeded
 from trochoid.drives.gathering import begun, timed
 from trochoid.drives.planetary import headline
@@ -140,6 +141,7 @@ def _moving(stages: Stages) -> Iterator[str]:
             )
     if "vibration" in ran:
         yield from stages.vibration.fine.elastic.warnings
+        yield from casing_warnings(stages.scene, stages.vibration)
 
 
 def _unheeded(stages: Stages) -> Iterator[str]:

@@ -10,6 +10,7 @@ import numpy as np
 from trochoid.drives.planetary.bodies import Level
 from trochoid.drives.planetary.contact import Layout, Load, assembly, centers, layout, twists
 from trochoid.drives.planetary.design import Design
+from trochoid.drives.unsolved import unsolved
 from trochoid.fem.assembly import Contact, Touch
 from trochoid.fem.moving import softness, wandering
 from trochoid.fem.position import solve_positions
@@ -19,6 +20,7 @@ from trochoid.kinematics.train import Speeds
 from trochoid.kinematics.types import Array, IntArray, frozen
 
 CHUNK = 64  # positions side by side
+FLUNG = 1e4  # times the force in mesh: a planet is then flung out, and nothing else matters
 ROUNDING = 1e-10  # of a planet's bearing force: a resultant below it is none
 
 
@@ -132,6 +134,18 @@ class Series:
         return {name: np.where(np.abs(force) > least, force, 0.0) for name, force in found.items()}
 
 
+def _flung(design: Design, load: Load) -> str:
+    """Say when what flings planets out is beyond comparison with what presses their teeth, or nothing."""
+    d = design.drive
+    pressed = abs(load.sun) / (0.5 * d.module * d.z_sun * d.planets)
+    if load.centrifugal < FLUNG * pressed:
+        return ""
+    return (
+        f"; operation.input_speed flings each planet out with {load.centrifugal:.3g} N, beside {pressed:.3g} N in its "
+        f"mesh with the sun: take a lower speed"
+    )
+
+
 def solve_series(
     design: Design, turning: Speeds, level: Level, load: Load, angle: Array, rung: str
 ) -> Series:
@@ -144,8 +158,8 @@ def solve_series(
         try:
             contact = solve_positions(problem, resolve=rung == "strips")
         except NotConverged as fault:
-            at = np.degrees(angle[rows[fault.row or 0]])
-            raise NotConverged(f"at input angle {at:.6g}°: {fault}") from fault
+            said = _flung(design, load)
+            raise unsolved(fault, angle[rows[fault.row or 0]], layout(design).names, said) from fault
         parts.append((rows, contact))
         wanders[rows] = wandering(problem, contact, softness(contact.stiffness, row))
     found, count = joined(parts), design.drive.planets

@@ -24,6 +24,15 @@ INNER_TURNS = {
     "C": True,
 }  # past the load, which stands still in the frame of the input shaft
 
+UNDER_TEETH = (
+    "reactions to the members' inertia, what the output torque adds through the teeth (bearing_loads; neither "
+    "radial_load nor moment_load stands for it), and the axial_load; on rigid rings"
+)
+UNDER_INERTIA = (
+    "a bearing's radial_load and moment_load where the scene gives them, else the reactions to the members' inertia "
+    "alone, and its axial_load; on rigid rings"
+)
+
 
 def bearing_stiffness(s: Stages) -> Quantity:
     """Stiffness of A, B, O and C as the equations have it: means across z, along z, against tilting."""
@@ -75,18 +84,15 @@ def _spread(over: tuple[Held, ...]) -> float:
 
 def bearing_life(s: Stages) -> Quantity:
     """Safety against sinking in and life of the rolling bearings under the loads of a turn."""
-    if not s.bearings:
+    if not s.lasting:
         raise SceneError(f"bearing_life: {NONE} in [drive.bearing_a], [drive.bearing_b] or [drive.bearing_c]")
     turning, parts = speeds(s.design), dict[str, Quantity | Parts]()
-    for name, rows in s.bearings.items():
+    for name, rows in s.lasting.items():
         inner, outer = turning[name]
         found = [life_parts(one, inner - outer, INNER_TURNS[name]) for one in rows]
         if len(found) == 1:
             parts[name.lower()] = found[0]
         else:
             parts |= {f"{name.lower()}_{i}": each for i, each in enumerate(found, 1)}
-    note = (
-        "a bearing's radial_load where the scene gives it, else the reactions to the members' inertia alone, and its "
-        "axial_load; on rigid rings"
-    )
+    note = UNDER_TEETH if s.lasting is not s.bearings else UNDER_INERTIA
     return Quantity(parts=parts, note=note)

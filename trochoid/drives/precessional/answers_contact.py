@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from trochoid.drives.exact import ARCMIN
-from trochoid.drives.mesh_error import Pair, scalar_error
+from trochoid.drives.mesh_error import Pair, sampling_error, scalar_error
 from trochoid.drives.precessional.answers_geometry import NO_TEETH
 from trochoid.drives.precessional.stages import Stages
-from trochoid.kinematics.types import Array
+from trochoid.kinematics.types import Array, IntArray
 from trochoid.results.outcome import Parts, Quantity
 
 if TYPE_CHECKING:
@@ -26,30 +26,36 @@ EDGE = (
 )
 
 
-def number(s: Stages, pair: Pair[float], unit: str) -> Quantity:
+def number(s: Stages, pair: Pair[float], unit: str, worst: float | None = None) -> Quantity:
     """Return a number with the error that two mesh levels suggest."""
     if s.contact is None:
         return NO_TEETH
-    error = None if pair.coarse is None else scalar_error(pair.fine, pair.coarse, s.contact.difference)
+    share = s.contact.difference if worst is None else worst
+    error = None if pair.coarse is None else scalar_error(pair.fine, pair.coarse, share)
     return Quantity(pair.fine, unit, error, MODEL)
 
 
-def over_pitch(s: Stages, get: Callable[[Series], float], unit: str) -> Quantity:
-    """Return a number of the contacts over a pitch."""
+def over_pitch(s: Stages, get: Callable[[Series], float], unit: str, worst: float | None = None) -> Quantity:
+    """Return a number of the contacts over a pitch; its error is that of the mesh and of few positions.
+
+    `worst` takes the place of the worst number's relative difference of the meshes: whole numbers are off by their own.
+    """
     if s.contact is None:
         return NO_TEETH
-    return number(s, Pair(s.contact.fine, s.contact.coarse).map(get), unit)
+    found = number(s, Pair(s.contact.fine, s.contact.coarse).map(get), unit, worst)
+    if found.error is None:
+        return found
+    return replace(found, error=found.error + sampling_error(get, s.contact.fine, s.contact.fine.thinned))
 
 
 def load_sharing(s: Stages) -> Quantity:
     """How many teeth carry, and the largest share of one in the sum of all forces."""
     if s.contact is None:
         return NO_TEETH
-    count = (s.contact.fine.total > 0.0).sum(axis=1)
     teeth = {
-        "min": Quantity(float(count.min()), "", None, MODEL),
-        "mean": over_pitch(s, lambda x: float((x.total > 0.0).sum(axis=1).mean()), ""),
-        "max": Quantity(float(count.max()), "", None, MODEL),
+        "min": over_pitch(s, lambda x: float(_carrying(x).min()), "", 0.0),
+        "mean": over_pitch(s, lambda x: float(_carrying(x).mean()), "", 0.0),
+        "max": over_pitch(s, lambda x: float(_carrying(x).max()), "", 0.0),
     }
     parts: dict[str, Quantity | Parts] = {
         "loaded_teeth": teeth,
@@ -57,6 +63,10 @@ def load_sharing(s: Stages) -> Quantity:
         "largest_share_mean": over_pitch(s, lambda x: float(_share(x).max(axis=1).mean()), ""),
     }
     return Quantity(parts=parts, note="share: force of a contact over the sum of all of them")
+
+
+def _carrying(series: Series) -> IntArray:
+    return np.asarray((series.total > 0.0).sum(axis=1))
 
 
 def _share(series: Series) -> Array:
@@ -153,8 +163,11 @@ def lost_motion(s: Stages) -> Quantity:
         return NO_TEETH
     coarse = None if slack.coarse is None else slack.coarse / ARCMIN
     answer = number(s, Pair(slack.fine / ARCMIN, coarse), "arcmin")
+    error = None if answer.error is None else answer.error + slack.few / ARCMIN
     return replace(
-        answer, note="between +3 % and −3 % of operation.output_torque, input held, mean over a pitch"
+        answer,
+        error=error,
+        note="between +3 % and −3 % of operation.output_torque, input held, mean over a pitch",
     )
 
 

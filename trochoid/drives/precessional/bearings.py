@@ -14,6 +14,7 @@ import numpy as np
 
 from trochoid.drives.precessional.design import Design
 from trochoid.drives.precessional.reactions import Reactions
+from trochoid.drives.precessional.tooth_loads import ToothLoads
 from trochoid.drives.rolling import Held, held, sized
 from trochoid.drives.rolling_seat import SeatLevels, seat_levels
 from trochoid.fem.bearing_duty import fail_if_loose
@@ -97,6 +98,23 @@ class Carried:
             -found.support[:, :2],
             -found.support_moment[:, :2],
             -(found.joint_o if found.output is None else found.output)[:, :2],
+        )
+
+    def beside(self, teeth: ToothLoads) -> Carried:
+        """Return the loads (m, 2) with the mean over a pitch of what teeth add: all but steady in the shaft's frame.
+
+        There the satellite's axis leans to y, in the crank's frame of the teeth to x.
+        """
+
+        def turned(vectors: Array) -> Array:
+            x, y = vectors[:, :2].mean(axis=0)
+            return np.array([-y, x])
+
+        return Carried(
+            self.a + turned(teeth.joint_a),
+            self.b - turned(teeth.support),
+            self.b_moment - turned(teeth.support_moment),
+            self.c - turned(teeth.joint_o),
         )
 
     @property
@@ -211,20 +229,26 @@ def bearings_of(
 ) -> tuple[Held, ...]:
     """Return the one or two rolling bearings of a joint under loads (m, 5) from shaft to seat, N and N·m.
 
-    `radial_load` takes the place of the force's size, and moments grow with it.
+    `radial_load` takes the place of the force's size, `moment_load` of the moment's.
     """
     said, spread = f"bearing {name}", spread_of(table)
     if spread == 0.0:
         return (held(said, table, loads, seat, speed, upright=not tilts),)
     whole = sized(table, loads)
     push, moment = whole[:, :2], whole[:, 3:]
-    alone = table.model_copy(update={"radial_load": None})
+    alone = unsized(table)
     found = []
     for sign in (1.0, -1.0):  # a pair of like bearings carries a moment as a couple of forces
         couple = sign * np.stack([moment[:, 1], -moment[:, 0]], axis=1) / spread
         one = held(said, alone, 0.5 * push + couple, seat, speed, upright=not tilts)
         found.append(replace(one, table=table))
     return tuple(found)
+
+
+def unsized(table: RollingTable) -> RollingTable:
+    """Return the table without the loads that stand for what the drive puts on it."""
+    given = {"radial_load": None} | ({"moment_load": None} if isinstance(table, Support) else {})
+    return table.model_copy(update=given)
 
 
 def spread_of(table: RollingTable) -> float:

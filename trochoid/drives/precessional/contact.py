@@ -9,7 +9,8 @@ The bearing A holds the satellite's axis against tilting about O.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from trochoid.drives.precessional.overload import explained
 from trochoid.drives.precessional.rim import crowning, lean, play, reach, toothed
 from trochoid.drives.precessional.teeth import Level
 from trochoid.fem.cone_assembly import ConeAssembly, ConeContact
-from trochoid.fem.cone_pair import crown, roller_pair
+from trochoid.fem.cone_pair import RollerPair, crown, roller_pair
 from trochoid.fem.cone_position import solve_cone
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.sphere_tooth import SphereTooth
@@ -34,7 +35,8 @@ class Series:
     """Contacts at crank angles (n,), rad, over a pitch under the output's `torque` (N·m); vectors in the crank's frame.
 
     `force`, `pressure` (n, pins, slices) N, Pa at distances `places` (slices,) m from O; `point`, `normal` (n, pins, 3)
-    of the contacts, the normal out of the lobed member; `edge` (n, pins) where a pressure at an edge has no bound.
+    of the contacts, the normal out of the lobed member, `place` (n, pins) their arc lengths, rad, from the start of the
+    flank's tooth 0; `edge` (n, pins) where a pressure at an edge has no bound.
     `motion` (n, 3) rotation of the satellite, rad; `mesh` (n, 3, 3) stiffness of the teeth, N·m/rad, `held` (3, 3)
     that of what holds the satellite's axis.  The joint O puts the moment −`torque`·`out` (3,) on the satellite, which
     turns the output by its rotation along `out`.  `on_satellite` is +1 where pins are on it: the sign of n F on it.
@@ -50,6 +52,7 @@ class Series:
     pressure: Array
     point: Array
     normal: Array
+    place: Array
     edge: BoolArray
     motion: Array
     mesh: Array
@@ -58,6 +61,13 @@ class Series:
     on_satellite: int
     residual: Array
     breadth: Array
+
+    def thinned(self, stride: int) -> Iterator[Series]:
+        """Yield every so-manieth position, from each of the first on; nothing where there are too few."""
+        n = len(self.crank)
+        of_all = {f.name for f in fields(self)} - {"torque", "axis", "places", "held", "out", "on_satellite"}
+        for start in range(stride) if n >= stride else ():
+            yield replace(self, **{name: getattr(self, name)[start::stride] for name in of_all})
 
     @property
     def total(self) -> Array:
@@ -131,26 +141,15 @@ def solve_series(
     A torque below 0 drives the output on.  `moment` (3,) in N·m about O acts on the satellite besides, steady in the
     crank's frame: that of its inertia is `inertia_moment`.  Raises NotConverged.
     """
-    (tooth, _), rim = toothed(design), level.rim
-    compliance = rim.compliance
+    (tooth, _), compliance = toothed(design), level.rim.compliance
     turned = to_flank(tooth, crank)
     n, out = design.nutation.axis, output_unit(design)
     stiff = _rigid(design) if tilt_stiffness is None else tilt_stiffness
     held = stiff * (np.eye(3) - np.outer(n, n))
-    moves = _moves(tooth, turned)
+    moves = satellite_moves(tooth, turned)
     sign = -1 if tooth.pins_on == "ring" else 1  # of the force along the contact's normal on the satellite
     load = turn(turned, sign * (torque * out - (0.0 if moment is None else moment)))
-    slices = compliance.slices
-    pair = roller_pair(
-        tooth,
-        crank,
-        slices,
-        rim.shape.start,
-        clearance=play(design),
-        relief=crown(slices, crowning(design)),
-        edges=rim.shape.edges,
-        lean=lean(design),
-    )
+    slices, pair = compliance.slices, paired(design, level, crank)
     springs = stiff * np.diag([1.0, 1.0, 0.0])  # in the satellite's frame, or a frame with its axis
     assembly = ConeAssembly(compliance, pair, springs, turn(np.swapaxes(moves, 1, 2), load), level.roller)
     try:
@@ -183,6 +182,7 @@ def solve_series(
         pressure=joined("pressure"),
         point=placed("point"),
         normal=placed("normal"),
+        place=np.concatenate([each.state.place for each in found]),
         edge=np.concatenate([_edges(each, short) for each in found]),
         motion=-sign * turn(to_arm, joined("motion")) if torque else np.zeros((len(crank), 3)),
         mesh=mesh,
@@ -191,6 +191,22 @@ def solve_series(
         on_satellite=sign,
         residual=joined("residual"),
         breadth=np.concatenate([_breadth(tooth, each, slices.middle) for each in found]),
+    )
+
+
+def paired(design: Design, level: Level, crank: Array) -> RollerPair:
+    """Return all rollers as the scene has them against the flank of the rim."""
+    (tooth, _), rim = toothed(design), level.rim
+    slices = rim.compliance.slices
+    return roller_pair(
+        tooth,
+        crank,
+        slices,
+        rim.shape.start,
+        clearance=play(design),
+        relief=crown(slices, crowning(design)),
+        edges=rim.shape.edges,
+        lean=lean(design),
     )
 
 
@@ -212,7 +228,7 @@ def _rigid(design: Design) -> float:
     return HELD * young * design.tooth_radius**3
 
 
-def _moves(tooth: SphereTooth, turned: Array) -> Array:
+def satellite_moves(tooth: SphereTooth, turned: Array) -> Array:
     """Return the rotations (n, 3, 3) of the lobed member to be solved for, the last about the satellite's axis."""
     if tooth.pins_on == "ring":  # that axis stands still in the satellite's own frame
         return np.broadcast_to(np.eye(3), turned.shape)

@@ -6,7 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from trochoid.drives.choosing import choose
+from trochoid.drives.mesh_error import sampling_error
 from trochoid.drives.precessional.contact import Series, inertia_moment, pitch_angles, solve_series
 from trochoid.drives.precessional.estimate import differences, worst_error
 from trochoid.drives.precessional.teeth import LEAST, Level, build_level
@@ -45,10 +48,14 @@ class Solved:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Slack:
-    """Mean angle (rad) of the output under +3 % less that under −3 % of its torque, on both levels."""
+    """Mean angle (rad) of the output under +3 % less that under −3 % of its torque, on both levels.
+
+    `few` is the error for the few positions of the mean.
+    """
 
     fine: float
     coarse: float | None
+    few: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -141,13 +148,17 @@ class Teeth:
         scene = self.design.scene
         torque, count = SLIGHT * scene.operation.output_torque, min(PLAY_POSITIONS, scene.ask.positions)
 
-        def between(level: Level) -> float:
-            ways = [float(self.series(level, sign * torque, count).lag.mean()) for sign in (1.0, -1.0)]
-            return ways[0] - ways[1]
+        def between(level: Level) -> Array:
+            ways = [self.series(level, sign * torque, count).lag for sign in (1.0, -1.0)]
+            return np.asarray(ways[0] - ways[1])
+
+        def thinned(stride: int) -> list[Array]:
+            return [fine[start::stride] for start in range(stride)] if count >= stride else []
 
         with self.clock.stage("lost motion"):
-            coarse = solved.coarse_level
-            return Slack(between(solved.level), None if coarse is None else between(coarse))
+            coarse, fine = solved.coarse_level, between(solved.level)
+            few = sampling_error(lambda x: float(x.mean()), fine, thinned)
+            return Slack(float(fine.mean()), None if coarse is None else float(between(coarse).mean()), few)
 
 
 def _mean(stiffness: Array, first: int) -> float:

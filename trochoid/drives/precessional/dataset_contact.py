@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from trochoid.drives.entries import Entries, entry, named
+from trochoid.drives.entries import Entries, Entry, entry, named
 from trochoid.drives.precessional.contact import Series
 from trochoid.drives.precessional.design import Design
 from trochoid.drives.precessional.tooth_loads import tooth_loads
@@ -34,11 +34,13 @@ def passage(values: Array) -> Array:
 def contact_places(design: Design, series: Series) -> Entries:
     """Return the coordinates of all that `contact_entries` gives."""
     loaded = np.flatnonzero(series.total[0] > 0.0)
+    pitch = 2.0 * np.pi / design.nutation.fixed_teeth
+    over_pitch = np.append(series.crank, series.crank[0] + pitch)
+    turned = passage_angle(design, series)
+    over_passage = np.append(turned, turned[0] + pitch * series.force.shape[1])
     return {
-        PITCH: entry((PITCH,), series.crank, "rad", "input angle over a pitch of the wheel"),
-        PASSAGE: entry(
-            (PASSAGE,), passage_angle(design, series), "rad", "input angle over the passage of a roller"
-        ),
+        PITCH: entry((PITCH,), over_pitch, "rad", "input angle over a pitch of the wheel"),
+        PASSAGE: entry((PASSAGE,), over_passage, "rad", "input angle over the passage of a roller"),
         PLACE: entry((PLACE,), series.places, "m", "distance from O"),
         SLICE: named(
             SLICE, tuple(f"{1e3 * place:.1f} mm" for place in series.places), "slice at a distance from O"
@@ -48,7 +50,7 @@ def contact_places(design: Design, series: Series) -> Entries:
 
 
 def contact_entries(design: Design, series: Series) -> Entries:
-    """Return forces, pressures, stiffnesses and the transmission error."""
+    """Return forces, pressures, stiffnesses and the transmission error; a pitch or passage ends as it began."""
     loads, lag = tooth_loads(design, series), series.lag
     loaded = np.flatnonzero(series.total[0] > 0.0)
     wind_up = float(np.degrees(lag.mean()) * 60.0)
@@ -117,7 +119,15 @@ def contact_entries(design: Design, series: Series) -> Entries:
         made[f"bearing_load_{name}"] = entry(
             (PITCH,), size, "N", f"force in {name.upper()} of the output torque"
         )
-    return made
+    return {name: _closed(each) for name, each in made.items()}
+
+
+def _closed(given: Entry) -> Entry:
+    """Return an entry with its first value at the end again, where it goes over a pitch or a passage."""
+    dims, values, attributes = given
+    if dims[0] not in (PITCH, PASSAGE):
+        return given
+    return dims, np.concatenate([values, values[:1]]), attributes
 
 
 def _largest_share(series: Series) -> Array:

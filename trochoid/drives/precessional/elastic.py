@@ -22,7 +22,7 @@ from trochoid.drives.precessional.reactions import Reactions, tooth_couple
 from trochoid.dynamics.constraint import constraint_forces, free_motions
 from trochoid.dynamics.modes import natural_modes
 from trochoid.dynamics.spectrum import harmonics
-from trochoid.kinematics.errors import TrochoidError
+from trochoid.kinematics.errors import Infeasible
 from trochoid.kinematics.types import Array, ComplexArray, frozen
 
 SAMPLES, LINES = 16, 3  # of one period of the loads, which have the lines 0 and 1 alone
@@ -83,7 +83,7 @@ class Elastic:
 def respond(drive: PrecessionalDrive, made: Bodies, speed: float, damping: float) -> Elastic:
     """Solve for the steady motion; `damping` is the ratio of every mode at standstill.
 
-    Raises TrochoidError where nothing balances the loads.
+    Raises Infeasible where nothing balances the loads.
     """
     basis = free_motions(made.rows, made.matrices.mass)
     steps = drive.reaction_period * np.arange(SAMPLES) / SAMPLES
@@ -157,9 +157,9 @@ def _forces(
     rest = np.abs((made.rows.T @ rigid - missing) * size[:, None]).max()
     gross = max(np.abs(loads_ * size).max(), np.abs(carried * size).max(), 1e-300)
     if rest > BALANCED * gross:
-        raise TrochoidError(
+        raise Infeasible(
             f"elastic reactions: the joints leave {rest / gross:.1e} of the loads unbalanced; check stiffnesses "
-            "that are many orders apart"
+            "and masses that are many orders apart"
         )
     for (name, motion), line in zip(made.labels, rigid, strict=True):
         if name in found:

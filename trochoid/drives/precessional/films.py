@@ -20,7 +20,7 @@ from trochoid.drives.precessional.rim import toothed
 from trochoid.drives.solids import Solid, joined
 from trochoid.fem.cone_field import displacements, rim_field, station_forces
 from trochoid.fem.cone_stress import joined_at_cuts, nodal_stress, stress_rule, von_mises
-from trochoid.fem.cone_strip import Strips, cone_strips, flank_displacement, flank_places
+from trochoid.fem.cone_strip import Strips, cone_strips, flank_displacement
 from trochoid.fem.cone_surface import ToothSurface, tooth_surface
 from trochoid.kinematics.nutation import satellite_motion
 from trochoid.kinematics.spherical import rotation, turn
@@ -78,9 +78,7 @@ def _states(design: Design, solved: Solved, surface: ToothSurface, rows: Array) 
     (tooth, _), body, pitch = toothed(design), rim.body, rim.shape.pitch
     turned = to_flank(tooth, series.crank[rows])
     point, normal = (turn(turned[:, None], x[rows]) for x in (series.point, series.normal))
-    near = tooth.contact_parameter(np.arange(tooth.pins), series.crank[rows][:, None])
-    place = flank_places(rim, point, near)
-    force, pressure = series.force[rows], series.pressure[rows]
+    place, force, pressure = series.place[rows], series.force[rows], series.pressure[rows]
     loads = np.array([station_forces(rim, p, f) for p, f in zip(place, force, strict=True)])
     rule, found = stress_rule(body), {}
     for i, moved in enumerate(displacements(rim_field(rim), loads)):

@@ -4,23 +4,43 @@ from __future__ import annotations
 
 import numpy as np
 
-from trochoid.drives.mode_film import Part, Swing, joined, mode_films, solid, tube
+from trochoid.drives.mode_film import MOST, Part, Swing, joined, mode_films, solid, tube
 from trochoid.drives.precessional.design import Design
 from trochoid.drives.precessional.modes import NaturalModes
 from trochoid.kinematics.types import Array, frozen
 from trochoid.results.film import Film
 
+RIDES = 0.2  # of the casing's largest displacement: with less against it members ride on it
 SLIM = 0.12  # radius of shafts beside the reach of the drive, which no table says
 
 
 def films(design: Design, found: NaturalModes) -> tuple[Film, ...]:
-    """Return the first modes as the turning input shaft sees them."""
+    """Return the first modes in which members move against the casing, as the turning input shaft sees them.
+
+    Where these are few, the first of the casing on its mounts come besides; numbers are those among all modes.
+    """
     parts = members(design, found)
+    order = sorted(range(len(found.modes)), key=lambda i: (_rides(found, parts, i), i))[:MOST]
     swings = [
         Swing(i + 1, f"{mode.frequency:.5g} Hz, {mode.words}", found.motions[i])
         for i, mode in enumerate(found.modes)
+        if i in order
     ]
     return mode_films(parts, swings, "seen from the input shaft")
+
+
+def _rides(found: NaturalModes, parts: list[Part], mode: int) -> bool:
+    """Whether all members ride on the casing, which alone moves."""
+    if "casing" not in found.members:
+        return False
+    frame = parts[found.members.index("casing")]
+    motion = found.motions[mode][found.members.index("casing")]
+    most = np.abs(frame.moved(motion)).max()
+    against = [
+        part.moved(own) - Part("", part.points, part.cells, frame.center).moved(motion)
+        for part, own in zip(parts, found.motions[mode], strict=True)
+    ]
+    return max(float(np.abs(each).max()) for each in against) < RIDES * float(most)
 
 
 def members(design: Design, found: NaturalModes) -> list[Part]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
+from trochoid.drives.casing_doubt import casing_warnings
 from trochoid.drives.gathering import begun, timed
 from trochoid.drives.planning import with_casing
 from trochoid.drives.precessional import headline
@@ -32,6 +33,9 @@ def outcome(stages: Stages, quantities: Mapping[str, Quantity]) -> Outcome:
         headline.not_simulated(stages.scene),
     )
     words = replace(words, checks=checks(stages, ran), warnings=tuple(warnings(stages)))
+    if "vibration" in ran:
+        doubts = casing_warnings(stages.scene, stages.vibration_levels)
+        words = replace(words, warnings=(*words.warnings, *doubts))
     if "reactions" in ran:
         words = replace(words, notes=headline.notes(stages))
     if {"penetration", "contact", "reactions", "vibration", "modes"} & set(ran) or "profile" in quantities:
@@ -131,4 +135,8 @@ def warnings(stages: Stages) -> Iterator[str]:
 
         if stages.contact.fine.edge.any():
             yield EDGE
-        yield from doubts(stages.contact.fine)
+        if stages.wedged is not None:
+            from trochoid.drives.precessional.wedging import said
+
+            yield said(stages.design, stages.wedged)
+        yield from doubts(stages.contact.fine, stages.wedged is not None)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from trochoid.drives.precessional.design import Design
+from trochoid.drives.precessional.teeth import largest_force
 from trochoid.fem.cone_assembly import ConeContact
 from trochoid.kinematics.errors import NotConverged
 
@@ -24,6 +25,7 @@ TIMES = 1.1  # apart are the torques between which the limit is found
 TILTED = (
     0.25  # of the nutation: from there on the bearings, not the teeth, are to blame, and that is warned of
 )
+SUNK = 0.25  # of the teeth's height: from there on the rollers' seats are to blame
 BROAD = 0.1  # half width over radius: Hertz is wrong by about its square
 
 
@@ -32,6 +34,15 @@ def explained(
 ) -> NotConverged:
     """Return the fault in the scene's words; `solve(share)` solves the position under that share of the torque."""
     place = f"at input angle {math.degrees(crank):.4g}°"
+    height, sag = _height(design), 1e3 * _sag(design, torque)
+    if sag > SUNK * height:
+        seat = design.scene.drive.rollers.seat_stiffness or 0.0
+        return NotConverged(
+            f"contacts {place}: {abs(torque):.4g} N*m at the output is more than the teeth hold: rollers would sink by "
+            f"{sag:.3g} mm on their pins, and teeth are {height:.3g} mm high; give rollers.seat_stiffness = "
+            f"{_up(1e-3 * seat * sag / (SUNK * height)):.6g} or more (given {1e-3 * seat:.6g}), or take less torque",
+            fault.row,
+        )
     share, found = limit(solve)
     if found is None:
         return NotConverged(f"contacts {place} under {torque:.4g} N*m at the output: {fault}", fault.row)
@@ -40,7 +51,7 @@ def explained(
         f"bearings A and B let the satellite's axis lean by {math.degrees(lean * design.nutation.angle):.3g}° there; "
         "stiffen them, take"
         if lean > TILTED
-        else f"rollers and teeth yield by the height of the teeth, {_height(design):.3g} mm; take"
+        else f"rollers and teeth yield by the height of the teeth, {height:.3g} mm; take"
     )
     return NotConverged(
         f"contacts {place}: {abs(torque):.4g} N*m at the output is more than the teeth hold; from about "
@@ -80,15 +91,20 @@ def _tried(solve: Callable[[float], ConeContact], share: float) -> ConeContact |
         return None
 
 
-def doubts(series: Series) -> Iterator[str]:
-    """Yield what is assumed small and is not."""
+def doubts(series: Series, wedged: bool = False) -> Iterator[str]:
+    """Yield what is assumed small and is not; where rollers are `wedged`, that is why contacts are broad."""
     if said := leaning(series):
         yield said
     broad = float(series.breadth.max())
     if broad > BROAD:
+        cause, remedy = (
+            (", where rollers wedge", "give them clearance")
+            if wedged
+            else (", near undercut", "a smaller pin_angle leaves a rounder flank")
+        )
         yield (
-            f"contacts are up to {200.0 * broad:.3g} % as wide as the radius of the flank there, near undercut: Hertz "
-            "takes them as narrow, so their pressure is a guess; a smaller pin_angle leaves a rounder flank"
+            f"contacts are up to {200.0 * broad:.3g} % as wide as the radius of the flank there{cause}: Hertz "
+            f"takes them as narrow, so their pressure is a guess; {remedy}"
         )
 
 
@@ -103,6 +119,20 @@ def leaning(series: Series) -> str:
         "bearings are linear and loads keep their directions, which is too simple for that; stiffen bearings A and B, "
         "or take less torque"
     )
+
+
+def _sag(design: Design, torque: float) -> float:
+    """Return by how much, m, the most loaded roller gives way on its seat where all that have a lever share evenly."""
+    seat = design.scene.drive.rollers.seat_stiffness
+    if seat is None or not design.scene.has("pin_compliance"):
+        return 0.0
+    return largest_force(design, torque) / seat
+
+
+def _up(value: float) -> float:
+    """Round up to two digits, so that what is advised is enough."""
+    digit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return math.ceil(value / digit) * digit
 
 
 def _height(design: Design) -> float:

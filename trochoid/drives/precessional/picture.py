@@ -96,7 +96,8 @@ def _pitch_cones(design: Design, reach: float) -> Iterator[PlotSurface]:
 
 def _axes(design: Design, reach: float) -> Iterator[PlotCurve]:
     n, along = design.nutation.axis, design.instantaneous_axis
-    yield PlotCurve("axis of the shafts", frozen(np.array([-0.2 * reach * Z, reach * Z])), style="dashed")
+    low, high = min(-0.2 * reach, 1.1 * design.mechanism.support), max(reach, 1.1 * design.mechanism.support)
+    yield PlotCurve("axis of the shafts", frozen(np.array([low * Z, high * Z])), style="dashed")
     yield PlotCurve("axis of the satellite", frozen(np.array([-0.2 * reach * n, reach * n])), style="dashed")
     yield PlotCurve("instantaneous axis", frozen(np.array([-0.2 * reach * along, reach * along])))
     drive = design.mechanism

@@ -86,5 +86,7 @@ def plan(scene: PrecessionalScene) -> Plan:
             scene, {name: said for name, said in why.items() if name not in ELASTIC}, needed, seconds
         )
     per = 0.02 if drive.teeth is None or drive.teeth.pins_on == "ring" else 0.04
+    if scene.has("bearing_compliance"):  # bearings wear under the output torque, too
+        needed["bearing_life"] = (*_CONTACT, "bearings")
     seconds |= {"bodies": 1.5, "contact": 2 * per * scene.ask.positions, "lost motion": 4 * per * 24}
     return planned(scene, why, needed, seconds, "slices", 400.0)

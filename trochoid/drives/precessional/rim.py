@@ -11,6 +11,7 @@ from trochoid.kinematics.sphere_tooth import SphereTooth
 from trochoid.scene.drive_precessional import Teeth
 
 DEPTH = 2.5  # heights of a tooth: how far below its spaces the rim is held where the scene does not say
+MOST = 400  # rollers: half of them press, and a square of their slices takes 0.5 GB
 LEAST_DEPTH = 0.25  # of a pitch: and no less than that, for teeth of small nutation are flat
 
 
@@ -65,6 +66,12 @@ def rim_faults(design: Design) -> tuple[str, ...]:
     if design.tooth is None:
         return ()
     found = []
+    if design.tooth.pins > MOST:
+        found.append(
+            f"z_wheel = {design.nutation.fixed_teeth}: elastic contact holds what each slice of {design.tooth.pins} "
+            f"rollers does to each other; memory lasts for {MOST}: take fewer teeth, or leave out the effect "
+            '"elastic_contact"'
+        )
     for make in (rim_shape, reach, web):
         try:
             make(design)

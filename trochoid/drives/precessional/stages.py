@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from trochoid.drives.precessional.mechanism import PrecessionalDrive
     from trochoid.drives.precessional.modes import NaturalModes
     from trochoid.drives.precessional.turn import Turn
+    from trochoid.drives.precessional.wedging import Wedged
     from trochoid.drives.precessional.yielding import Yielding
     from trochoid.drives.rolling import Held
     from trochoid.drives.vibration import CasingVibration
@@ -108,6 +109,19 @@ class Stages:
 
             return bearings_over_period(made, drive, held)
 
+    @cached_property
+    def lasting(self) -> dict[str, tuple[Held, ...]]:
+        """Rolling bearings under what wears them: inertia, and the output torque through elastic teeth."""
+        drive, made, held = self.mechanism, self.design, self.yielding
+        if held is None or self.contact is None or not self.scene.has("elastic_contact"):
+            return self.bearings
+        contact = self.contact
+        with self.clock.stage("bearings"):
+            from trochoid.drives.precessional.tooth_loads import tooth_loads
+            from trochoid.drives.precessional.yielding import bearings_over_period
+
+            return bearings_over_period(made, drive, held, tooth_loads(made, contact.fine))
+
     @property
     def elastic(self) -> Elastic | None:
         """Steady motion of the yielding members; None where nothing yields."""
@@ -126,6 +140,16 @@ class Stages:
     def contact(self) -> Solved | None:
         """Rollers and teeth over a pitch on two mesh levels; None without teeth."""
         return None if self.teeth is None else self.teeth.solved()
+
+    @cached_property
+    def wedged(self) -> Wedged | None:
+        """How rollers press both sides of the teeth without any load; None where they do not."""
+        if self.teeth is None or self.contact is None or not self.scene.has("clearance"):
+            return None
+        from trochoid.drives.precessional.wedging import wedged
+
+        with self.clock.stage("contact"):
+            return wedged(self.design, self.contact, self.teeth.tilt_stiffness)
 
     @cached_property
     def running(self) -> Series | None:

@@ -65,12 +65,18 @@ def _spot(design: Design, material: Material, facets: int) -> float:
         depth == 0.0 or torque == 0.0 or any(lean(design))
     ):  # leaning rollers touch elsewhere than in the middle
         return 0.0
-    tooth, teeth = toothed(design)
+    _, teeth = toothed(design)
     low, high = reach(design) or (teeth.inner_radius, teeth.outer_radius)
-    lever = np.abs(tooth.lever(tooth.contact_parameter(np.arange(tooth.pins), 0.0)))
-    force = torque / design.tooth_radius * float(lever.max() / (0.5 * lever @ lever))
+    force = largest_force(design, torque)
     kernel = (2.0 if design.scene.has("pin_compliance") else 1.0) * material.plane("strain").kernel
     length = float(np.cbrt(11.0 * kernel * (0.5 * (high - low)) ** 2 / (2.0 * depth) * force))
     spot = length / SPOT * FINE / facets
     usual = (high - low) / (max(3, round(LAYERS * facets)) * CROWNED_PARTS)
     return spot if spot < usual else 0.0
+
+
+def largest_force(design: Design, torque: float) -> float:
+    """Return the largest force (N) of a roller where all that have a lever share the torque (N·m) by it."""
+    tooth, _ = toothed(design)
+    lever = np.abs(tooth.lever(tooth.contact_parameter(np.arange(tooth.pins), 0.0)))
+    return abs(torque) / design.tooth_radius * float(lever.max() / (0.5 * lever @ lever))

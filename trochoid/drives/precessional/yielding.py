@@ -6,12 +6,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from trochoid.drives.precessional.bearings import Carried, Joints, bearings_of, joints, seats, speeds
+from trochoid.drives.precessional.bearings import (
+    Carried,
+    Joints,
+    bearings_of,
+    joints,
+    seats,
+    speeds,
+    unsized,
+)
 from trochoid.drives.precessional.design import Design
 from trochoid.drives.precessional.elastic import Elastic, respond
 from trochoid.drives.precessional.mechanism import PrecessionalDrive
 from trochoid.drives.precessional.members import Bodies, bodies
 from trochoid.drives.precessional.reactions import reactions
+from trochoid.drives.precessional.tooth_loads import ToothLoads
 from trochoid.drives.rolling import Held
 from trochoid.kinematics.errors import NotConverged
 from trochoid.kinematics.types import Array
@@ -62,10 +71,15 @@ def yielding(design: Design, drive: PrecessionalDrive, factor: float = 1.0) -> Y
 
 
 def bearings_over_period(
-    design: Design, drive: PrecessionalDrive, found: Yielding
+    design: Design, drive: PrecessionalDrive, found: Yielding, teeth: ToothLoads | None = None
 ) -> dict[str, tuple[Held, ...]]:
-    """Return the rolling bearings of A, B and C under the elastic reactions over a period."""
+    """Return the rolling bearings of A, B and C under the elastic reactions over a period.
+
+    With what `teeth` put on them besides, the load is known, and neither `radial_load` nor `moment_load` stands for it.
+    """
     loads = Carried.by(found.elastic.reactions(period(drive)))
+    if teeth is not None:
+        loads = loads.beside(teeth)
     d, turning = design.scene.drive, speeds(design)
     still = np.zeros_like(loads.b_moment)
     made = {}
@@ -78,7 +92,8 @@ def bearings_over_period(
             continue
         share = push / table.number if isinstance(table, OutputBearing) else push
         whole = np.concatenate([share, np.zeros((len(push), 1)), moment], axis=1)
-        over = bearings_of(joint.name, table, whole, tilts, None, turning[joint.name])
+        carrying = table if teeth is None else unsized(table)
+        over = bearings_of(joint.name, carrying, whole, tilts, None, turning[joint.name])
         made[joint.name] = tuple(
             replace(one, seat=at.seat) for one, at in zip(over, joint.bearings, strict=True)
         )

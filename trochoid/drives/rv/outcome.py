@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from trochoid.drives.casing import is_elastic
+from trochoid.drives.casing_doubt import casing_warnings
 from trochoid.drives.choosing import doubtful, unheeded
 from trochoid.drives.gathering import begun, timed
 from trochoid.drives.rv import headline
@@ -123,4 +125,6 @@ def warnings(stages: Stages) -> tuple[str, ...]:
             said += found.response.warnings
     if "vibration" in ran:
         said += stages.vibration.elastic.warnings
+        if is_elastic(stages.scene):
+            said += casing_warnings(stages.scene, stages.vibration_levels)
     return tuple(said)

@@ -11,6 +11,7 @@ from trochoid.drives.rv.bodies import Level
 from trochoid.drives.rv.breakdown import compliance_parts
 from trochoid.drives.rv.contact import Layout, assembly, layout, side_slopes
 from trochoid.drives.rv.design import Design
+from trochoid.drives.unsolved import unsolved
 from trochoid.fem.moving import softness
 from trochoid.fem.position import Assembly, Contact, Touch, solve_positions
 from trochoid.fem.rows import joined, taken
@@ -103,8 +104,7 @@ def solve_series(
         try:
             contact = solve_positions(problem, resolve=rung == "strips")
         except NotConverged as fault:
-            at = np.degrees(angle[rows][fault.row or 0])
-            raise NotConverged(f"at input angle {at:.6g}°: {fault}") from fault
+            raise unsolved(fault, angle[rows][fault.row or 0], motions.names) from fault
         parts.append((rows, _gathered(design, rung, angle[rows], problem, motions, contact)))
     return joined(parts)
 
@@ -115,7 +115,7 @@ def solve_at(design: Design, rung: str, level: Level, angle: float) -> Contact:
     try:
         found = solve_positions(assembly(design, motions, level.elastic, crank), resolve=rung == "strips")
     except NotConverged as fault:
-        raise NotConverged(f"at input angle {np.degrees(angle):.6g}°: {fault}") from fault
+        raise unsolved(fault, angle, motions.names) from fault
     return taken(found, 0)
 
 
