@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
-from trochoid.drives.casing_body import COMPARED
 from trochoid.drives.mesh_error import Pair, scalar_error
 from trochoid.drives.vibration import CasingVibration
+from trochoid.drives.vibration_read import Read, frequency, told_frequencies, velocity_at
 from trochoid.results.text import value_and_error
 from trochoid.scene import Scene
 
-MOST = 20  # natural frequencies that are told
 STILL = 1e-6  # of the largest frequency: those of a body that nothing holds
-Number = tuple[str, str, Callable[[CasingVibration], float]]
+Number = tuple[str, str, Read]
 
 
 def casing_warnings(scene: Scene[Any], levels: Pair[CasingVibration]) -> tuple[str, ...]:
@@ -47,26 +46,10 @@ def casing_warnings(scene: Scene[Any], levels: Pair[CasingVibration]) -> tuple[s
 def _numbers(found: CasingVibration) -> Iterator[Number]:
     """Yield the worst velocities at each point, mm/s, and the natural frequencies, Hz, with their names."""
     for i, point in enumerate(found.elastic.points):
-        yield f"worst at {point.name}", "mm/s", _worst(i, None)
+        yield f"worst at {point.name}", "mm/s", velocity_at(i)
         for name in found.others:
-            yield f"worst_{name} at {point.name}", "mm/s", _worst(i, name)
-    hertz = [each for each in found.elastic.natural_frequencies if each <= COMPARED][:MOST]
+            yield f"worst_{name} at {point.name}", "mm/s", velocity_at(i, other=name)
+    hertz = told_frequencies(found)
     for i, each in enumerate(hertz):
         if each > STILL * hertz[-1]:
-            yield f"mode_{i + 1} of casing_frequencies", "Hz", _mode(i)
-
-
-def _worst(point: int, other: str | None) -> Callable[[CasingVibration], float]:
-    def get(found: CasingVibration) -> float:
-        vibration = found.elastic if other is None else found.others[other]
-        return 1e3 * float(vibration.rms[point].max())
-
-    return get
-
-
-def _mode(i: int) -> Callable[[CasingVibration], float]:
-    def get(found: CasingVibration) -> float:
-        hertz = found.elastic.natural_frequencies
-        return float(hertz[min(i, len(hertz) - 1)])
-
-    return get
+            yield f"mode_{i + 1} of casing_frequencies", "Hz", frequency(i)

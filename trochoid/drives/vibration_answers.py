@@ -11,7 +11,7 @@ from trochoid.drives.casing import FREE, RIGID_CASING, RIGID_MOUNTS
 from trochoid.drives.casing_body import COMPARED, REDUCED
 from trochoid.drives.entries import Entries, entry, named
 from trochoid.drives.vibration import GENEVA, PRINTED, RIGID, SLOW, UNBALANCED, CasingVibration
-from trochoid.dynamics.vibration import Vibration
+from trochoid.drives.vibration_read import Read, frequency, told_frequencies, velocity_at
 from trochoid.dynamics.zones import Zone
 from trochoid.kinematics.types import IntArray
 from trochoid.results.outcome import Check, Parts, Quantity
@@ -37,14 +37,7 @@ EXPLAINED = WORDS | {
     FREE: "the casing without its mounts",
 }
 BALANCE = 1e-9
-MOST = 20  # natural frequencies that are told
-Number = Callable[[Callable[[CasingVibration], float], str, str], Quantity]
-
-
-def velocity(found: Vibration, point: int, axis: int | None) -> float:
-    """Return the rms velocity at a point along an axis, mm/s; without one the largest of the three."""
-    rms = found.rms[point]
-    return 1e3 * float(rms.max() if axis is None else rms[axis])
+Number = Callable[[Read, str, str], Quantity]
 
 
 def velocity_parts(found: CasingVibration, number: Number, model: str) -> Parts:
@@ -56,43 +49,27 @@ def velocity_parts(found: CasingVibration, number: Number, model: str) -> Parts:
         number = _without_error(number)
     parts: dict[str, Quantity | Parts] = {}
     for i, point in enumerate(found.elastic.points):
-        entries = {axis: number(_read(i, j), "mm/s", model) for j, axis in enumerate("xyz")}
-        entries["worst"] = number(_read(i, None), "mm/s", model)
+        entries = {axis: number(velocity_at(i, j), "mm/s", model) for j, axis in enumerate("xyz")}
+        entries["worst"] = number(velocity_at(i), "mm/s", model)
         for name in found.others:
             said = name if name in (RIGID, PRINTED) else model
-            value = number(_read(i, None, name), "mm/s", said)
+            value = number(velocity_at(i, None, name), "mm/s", said)
             entries[f"worst_{name}"] = replace(value, note=EXPLAINED[name])
         parts[point.name] = entries
     if found.casing.elastic:
-        low = [hertz for hertz in found.elastic.natural_frequencies if hertz <= COMPARED]
-        count = min(len(low), MOST)
+        count = len(told_frequencies(found))
         number = number if found.casing.compared else _without_error(number)
-        parts[FREQUENCIES] = {f"mode_{i + 1}": number(_mode(i), "Hz", "elastic") for i in range(count)}
+        parts[FREQUENCIES] = {f"mode_{i + 1}": number(frequency(i), "Hz", "elastic") for i in range(count)}
     return parts
 
 
 def _without_error(number: Number) -> Number:
     """Return the same maker of answers, that knows no error: one mesh tells none."""
 
-    def made(get: Callable[[CasingVibration], float], unit: str, model: str) -> Quantity:
+    def made(get: Read, unit: str, model: str) -> Quantity:
         return replace(number(get, unit, model), error=None)
 
     return made
-
-
-def _read(point: int, axis: int | None, other: str = "") -> Callable[[CasingVibration], float]:
-    def get(found: CasingVibration) -> float:
-        return velocity(found.others[other] if other else found.elastic, point, axis)
-
-    return get
-
-
-def _mode(i: int) -> Callable[[CasingVibration], float]:
-    def get(found: CasingVibration) -> float:
-        hertz = found.elastic.natural_frequencies
-        return float(hertz[min(i, len(hertz) - 1)])
-
-    return get
 
 
 def casing_note(found: CasingVibration) -> str:
