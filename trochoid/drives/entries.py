@@ -9,6 +9,15 @@ import numpy.typing as npt
 
 ANGLE = "input_angle"
 
+STIFFNESS_ENTRIES = (  # of a stiffness (4, 4) on x, y and both tilts: name, place, scale, unit
+    ("k_xx", (0, 0), 1e-6, "N/um"),
+    ("k_yy", (1, 1), 1e-6, "N/um"),
+    ("k_xy", (0, 1), 1e-6, "N/um"),
+    ("k_tilt_xx", (2, 2), 1.0, "N*m/rad"),
+    ("k_tilt_yy", (3, 3), 1.0, "N*m/rad"),
+    ("k_tilt_xy", (2, 3), 1.0, "N*m/rad"),
+)
+
 Entry = tuple[tuple[str, ...], npt.NDArray[Any], dict[str, str]]
 Entries = dict[str, Entry]
 

@@ -11,6 +11,7 @@ from trochoid.kinematics.types import Array, ComplexArray
 from trochoid.results.plot import Axis, Plot, PlotCurve
 
 NAMED = 0.2  # share of the energy from which a motion is named
+REACH = 3.0  # times the highest line, up to where modes are drawn
 CLOSE = 0.1  # how near, relative, a line comes to a frequency to be called near
 AXES = (Axis("input speed", "rad/s"), Axis("frequency", "Hz"))
 
@@ -60,12 +61,22 @@ def heard(
 
 
 def campbell_plot(
-    speeds: Array, frequencies: Array, lines: Mapping[str, float], operating: float, caption: str
+    speeds: Array,
+    rows: Sequence[Sequence[float] | Array],
+    lines: Mapping[str, float],
+    operating: float,
+    caption: str,
+    reach: float = REACH,
 ) -> Plot:
-    """Draw frequencies (p, k), Hz, over the input `speeds` (p,), rad/s, with the `lines` of given orders of the speed.
+    """Draw frequencies (Hz) for each of the input `speeds` (p,), rad/s, with the `lines` of given orders of the speed.
 
-    The dashed upright line is the speed of operation.
+    Modes that begin beyond `reach` times the highest line are left out. The dashed upright line is the speed of
+    operation.
     """
+    count = min(len(row) for row in rows)
+    frequencies = np.array([row[:count] for row in rows]).reshape(len(rows), count)
+    most = reach * max(lines.values(), default=1.0) * float(speeds[-1]) / (2.0 * np.pi)
+    frequencies = frequencies[:, frequencies[0] <= most]
     top = float(np.nanmax(frequencies)) if frequencies.size else 0.0
     highest = max(top, operating * max(lines.values(), default=1.0) / (2.0 * np.pi))
     modes = [

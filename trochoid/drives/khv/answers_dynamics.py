@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from trochoid.drives.entries import STIFFNESS_ENTRIES
 from trochoid.drives.khv.numbers import number, over_turn
 from trochoid.drives.khv.reactions import Reactions
 from trochoid.drives.khv.series import Series
@@ -21,14 +22,6 @@ from trochoid.results.outcome import Parts, Quantity
 if TYPE_CHECKING:
     from trochoid.drives.khv.modes import NaturalModes
 
-STIFFNESS_ENTRIES = (
-    ("k_xx", (0, 0), 1e-6, "N/um"),
-    ("k_yy", (1, 1), 1e-6, "N/um"),
-    ("k_xy", (0, 1), 1e-6, "N/um"),
-    ("k_tilt_xx", (2, 2), 1.0, "N*m/rad"),
-    ("k_tilt_yy", (3, 3), 1.0, "N*m/rad"),
-    ("k_tilt_xy", (2, 3), 1.0, "N*m/rad"),
-)
 STATISTICS: dict[str, Callable[[Array], float]] = {
     "mean": lambda a: float(a.mean()),
     "min": lambda a: float(a.min()),

@@ -131,12 +131,8 @@ def campbell(design: Design, series: Series, masses: Masses) -> Plot:
     at, orders = assembled(design, series, masses), lines(design)
     speeds = np.linspace(0.0, 2.0 * design.crank_speed, SPEEDS)
     rows = [[mode.frequency for mode in _modes(at, float(speed))[0]] for speed in speeds]
-    count = min(len(row) for row in rows)
-    frequencies = np.array([row[:count] for row in rows]).reshape(len(rows), count)
-    most = 3.0 * max(orders.values()) * speeds[-1] / (2.0 * np.pi)
-    shown = frequencies[:, frequencies[0] <= most]
     caption = (
         "Natural frequencies at the scene's torque, with the mean stiffness that the eccentric sees, up to three "
         "times the highest line. Where a line crosses one, its load is amplified."
     )
-    return campbell_plot(speeds, shown, orders, design.crank_speed, caption)
+    return campbell_plot(speeds, rows, orders, design.crank_speed, caption)

@@ -117,13 +117,10 @@ def campbell(set_: Moving, input_speed: float) -> Plot:
     """Draw the natural frequencies over the input speed."""
     speeds = np.linspace(0.0, 2.0 * input_speed, SPEEDS)
     rows = [whirl(assembled(set_, float(speed / input_speed))).frequency for speed in speeds]
-    count = min(len(row) for row in rows)
-    frequencies = np.array([row[:count] for row in rows]).reshape(len(rows), count)
     order = set_.speed / input_speed
     orders = {f"{h} × mesh frequency" if h > 1 else "mesh frequency": h * order for h in range(1, ORDERS + 1)}
-    most = 2.0 * ORDERS * order * speeds[-1] / (2.0 * np.pi)
     caption = (
         "Natural frequencies as seen from the carrier, at the scene's torque, with the mean stiffness over a pitch. "
         "Where a harmonic of the mesh frequency crosses one, forces are amplified."
     )
-    return campbell_plot(speeds, frequencies[:, frequencies[0] <= most], orders, input_speed, caption)
+    return campbell_plot(speeds, rows, orders, input_speed, caption, reach=2.0)

@@ -187,13 +187,9 @@ def _campbell(reduced: Reduced, operating: float, tooth_ratio: float) -> Plot:
         rows.append(
             sorted(_mode(reduced, found, i, float(speed)).frequency for i in range(found.frequency.size))
         )
-    count = min(len(row) for row in rows)
-    frequencies = np.array([row[:count] for row in rows])
-    seen = max(3.0 * max(lines.values()) * fastest / (2.0 * np.pi), 0.0)
-    shown = frequencies[:, frequencies[0] <= seen] if count else frequencies
     return campbell_plot(
         speeds,
-        shown,
+        rows,
         lines,
         operating,
         "Natural frequencies as the fixed frame hears them, up to three times the highest line; stiffnesses of "

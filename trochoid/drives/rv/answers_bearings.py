@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from trochoid.drives.entries import STIFFNESS_ENTRIES
 from trochoid.drives.mesh_error import Pair, scalar_error
 from trochoid.drives.rolling import Held, rollers_under
 from trochoid.drives.rolling_answers import MODEL, life_parts, noted, stiffness_parts, with_errors
@@ -13,15 +14,6 @@ from trochoid.drives.rv.series import Series
 from trochoid.drives.rv.stages import Stages
 from trochoid.results.outcome import Parts, Quantity
 from trochoid.scene.rolling import RollingTable
-
-ENTRIES = (
-    ("k_xx", (0, 0), 1e-6, "N/um"),
-    ("k_yy", (1, 1), 1e-6, "N/um"),
-    ("k_xy", (0, 1), 1e-6, "N/um"),
-    ("k_tilt_xx", (2, 2), 1.0, "N*m/rad"),
-    ("k_tilt_yy", (3, 3), 1.0, "N*m/rad"),
-    ("k_tilt_xy", (2, 3), 1.0, "N*m/rad"),
-)
 
 
 def bearing_stiffness(s: Stages) -> Quantity:
@@ -62,7 +54,7 @@ def _number(s: Stages, pair: Pair[float], unit: str) -> Quantity:
 def _entries(s: Stages, matrix: Pair[np.ndarray]) -> Parts:
     return {
         name: _number(s, matrix.map(lambda k, ij=ij, scale=scale: scale * float(k[ij])), unit)  # type: ignore[misc]
-        for name, ij, scale, unit in ENTRIES
+        for name, ij, scale, unit in STIFFNESS_ENTRIES
     }
 
 

@@ -130,12 +130,8 @@ def campbell(design: Design, series: Series, masses: Masses) -> Plot:
         found = _over_turn(design, series, parts, float(speed / operating), FEW)
         count = min(len(each.frequency) for each in found)
         rows.append(np.mean([each.frequency[:count] for each in found], axis=0))
-    count = min(len(row) for row in rows)
-    frequencies = np.array([row[:count] for row in rows]).reshape(len(rows), count)
-    most = 3.0 * max(orders.values()) * speeds[-1] / (2.0 * np.pi)
-    shown = frequencies[:, frequencies[0] <= most]
     caption = (
         "Natural frequencies as seen from the carrier, at the scene's torque, means over a turn of the crankshafts, up "
         "to three times the highest line. Where a line crosses one, its load is amplified."
     )
-    return campbell_plot(speeds, shown, orders, operating, caption)
+    return campbell_plot(speeds, rows, orders, operating, caption)
