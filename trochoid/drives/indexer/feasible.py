@@ -12,9 +12,12 @@ from trochoid.kinematics.indexer_slot import Slot
 SLIM = 100.0  # times its thickness, up to which slots are as long in a wheel of finite elements
 
 
-def faults(design: Design, slot: Slot) -> tuple[str, ...]:
-    """Return one sentence per fault: what was given, the limit, the nearest feasible value."""
-    return _shell(design) + _hub(design, slot) + _walls(design, slot) + _length(design, slot)
+def faults(design: Design, slot: Slot, play: float = 0.0) -> tuple[str, ...]:
+    """Return one sentence per fault: what was given, the limit, the nearest feasible value.
+
+    Slots are wider than the pin by the `play` (m).
+    """
+    return _shell(design) + _hub(design, slot) + _walls(design, slot, play) + _length(design, slot)
 
 
 def pin_faults(design: Design) -> tuple[str, ...]:
@@ -113,13 +116,14 @@ def _hub(design: Design, slot: Slot) -> tuple[str, ...]:
     )
 
 
-def _walls(design: Design, slot: Slot) -> tuple[str, ...]:
+def _walls(design: Design, slot: Slot, play: float) -> tuple[str, ...]:
     between = between_slots(design, slot)
     if 2.0 * design.drive.pin_radius < between:
         return ()
+    room = between - play if play < between else between  # otherwise it is the play that has no room
     return (
         f"pin_radius = {_mm(design.drive.pin_radius)}: neighbouring slots, {math.degrees(design.drive.swing_angle):g}° "
-        f"apart, run into each other; it must be less than {_mm(0.5 * between)}",
+        f"apart, run into each other; it must be less than {_mm(0.5 * room)}",
     )
 
 

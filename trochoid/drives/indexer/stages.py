@@ -66,11 +66,13 @@ class Stages:
         with self.clock.stage("geometry"):
             from trochoid.drives.indexer.feasible import faults, pin_faults, play_faults
 
-            reasons = faults(made, travel["indexer"])
-            if self.scene.has("elastic_contact"):
+            elastic = self.scene.has("elastic_contact")
+            loose = elastic and self.scene.has("clearance")
+            reasons = faults(made, travel["indexer"], made.drive.pin.play if loose else 0.0)
+            if elastic:
                 reasons += pin_faults(made)
-                if self.scene.has("clearance"):
-                    reasons += play_faults(made, travel["indexer"])
+            if loose:
+                reasons += play_faults(made, travel["indexer"])
             reasons = (*reasons, *casing_reasons(self.scene))
             if reasons:
                 raise Infeasible("\n".join(reasons))
