@@ -23,6 +23,8 @@ MARCHED = (
     "dynamic_factor",
     "residual_vibration",
     "reactions",
+    "vibration_velocity",
+    "vibration_zone",
 )  # scenes out of all proportion take too many steps
 
 
